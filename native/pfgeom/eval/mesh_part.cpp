@@ -1,0 +1,18 @@
+#include "pfgeom/eval/mesh_part.h"
+
+namespace pfgeom {
+
+TriangleMesh mesh_of(const Object& object) {
+    const auto& part = std::get<MeshPart>(object.shape);
+    TriangleMesh mesh;
+    mesh.faces = part.faces;
+    mesh.vertices.reserve(part.positions.size());
+    const double step = part.step();
+    for (const auto& q : part.positions) {
+        const Vec3 local{q[0] * step, q[1] * step, q[2] * step};
+        mesh.vertices.push_back(object.frame.to_world(local));
+    }
+    return mesh;
+}
+
+}  // namespace pfgeom

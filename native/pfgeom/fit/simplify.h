@@ -1,0 +1,24 @@
+// The fitter of the mesh part: the fewest triangles within a tolerance.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/function/model.h"
+#include "pfgeom/mesh/triangle_mesh.h"
+
+namespace pfgeom {
+
+struct MeshPartOptions {
+    double tolerance = 0;       ///< in the mesh's units
+    Metric metric = Metric::max;
+    /// Share of the tolerance that is used (the closed loop lowers it when a measurement fails); 0: no
+    /// simplification, finest quantisation: the safety net, which always holds the tolerance.
+    double share = 1.0;
+};
+
+/// Simplifies by edge collapses ordered by the true two-sided error, then quantises; the result, dequantised,
+/// is aimed to lie within share * tolerance of `mesh` both ways. Any triangle soup goes in; borders stay
+/// within the tolerance too. Deterministic. In canonical order (codec's business) only after `canonical()`.
+Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, const Task& task = {});
+
+
+}  // namespace pfgeom

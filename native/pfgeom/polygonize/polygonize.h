@@ -1,0 +1,29 @@
+// The public header of the way back: a scalar field's zero set as a closed 2-manifold triangle mesh.
+#pragma once
+
+#include <cstddef>
+
+#include "pfgeom/base/limits.h"
+#include "pfgeom/base/task.h"
+#include "pfgeom/eval/scalar_field.h"
+#include "pfgeom/mesh/triangle_mesh.h"
+
+namespace pfgeom {
+
+struct PolygonizeOptions {
+    double tolerance = 1e-3;  ///< aimed distance between mesh and zero set, in the field's units
+    int min_depth = 4;        ///< cells are never larger than 2 / 2^min_depth
+    int max_depth = 10;       ///< nor smaller than 2 / 2^max_depth; min == max: a uniform grid
+    std::size_t max_cells = Limits{}.polygon_cells;
+    std::size_t max_faces = Limits{}.polygon_faces;
+};
+
+/// Zero set of `field` within the cube [-1,1]³, outside of which the field counts as negative (the surface is
+/// closed there). Adaptive; vertices lie on the zero set; triangles are counter-clockwise seen from outside
+/// (where the field is < 0); every edge has exactly two faces, in opposite directions, every vertex one fan.
+/// The same field and options give the same mesh for any number of threads, bit for bit.
+/// Not guaranteed: freedom from self-intersections; features smaller than a cell of max_depth.
+/// Throws LimitExceeded (a cap, named) and Cancelled.
+TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& options, const Task& task = {});
+
+}  // namespace pfgeom
