@@ -1,9 +1,9 @@
 // Axis-aligned box; empty until it has been grown.
 #pragma once
 
-#include <limits>
-
 #include "pfgeom/base/vec.h"
+
+#include <limits>
 
 namespace pfgeom {
 

@@ -1,12 +1,12 @@
 // Whole files of bytes: bounded reading, and writing that leaves the file whole or absent.
 #pragma once
 
+#include "pfgeom/base/limits.h"
+
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "pfgeom/base/limits.h"
 
 namespace pfgeom {
 

@@ -2,10 +2,10 @@
 // the number of threads.
 #pragma once
 
+#include "pfgeom/base/task.h"
+
 #include <cstddef>
 #include <functional>
-
-#include "pfgeom/base/task.h"
 
 namespace pfgeom {
 

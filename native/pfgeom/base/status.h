@@ -10,19 +10,19 @@ namespace pfgeom {
 
 enum class FormatStatus : std::uint8_t {
     ok,
-    not_a_pfg,          ///< the magic is missing
-    text_damage,        ///< the magic was changed as by a text-mode transfer
-    unknown_version,    ///< a major version that this reader does not know
-    truncated,          ///< the file ends before its content does
-    trailing_bytes,     ///< the file goes on after its content
-    checksum_mismatch,  ///< a CRC-32C does not fit
-    unknown_section,    ///< a required section that this reader does not know
-    bad_section,        ///< section table: order, overlap, duplicate, or a reserved bit
-    bad_header,         ///< frame, promise or counts outside their ranges
-    limit_exceeded,     ///< a count is larger than the bytes left can hold, or than a cap of Limits
-    bad_value,          ///< a decoded value outside its range
-    bad_stream,         ///< the entropy coder did not end in its known state
-    derivation_mismatch ///< the derived geometry differs from the encoder's (16-bit check)
+    not_a_pfg,           ///< the magic is missing
+    text_damage,         ///< the magic was changed as by a text-mode transfer
+    unknown_version,     ///< a major version that this reader does not know
+    truncated,           ///< the file ends before its content does
+    trailing_bytes,      ///< the file goes on after its content
+    checksum_mismatch,   ///< a CRC-32C does not fit
+    unknown_section,     ///< a required section that this reader does not know
+    bad_section,         ///< section table: order, overlap, duplicate, or a reserved bit
+    bad_header,          ///< frame, promise or counts outside their ranges
+    limit_exceeded,      ///< a count is larger than the bytes left can hold, or than a cap of Limits
+    bad_value,           ///< a decoded value outside its range
+    bad_stream,          ///< the entropy coder did not end in its known state
+    derivation_mismatch  ///< the derived geometry differs from the encoder's (16-bit check)
 };
 
 std::string_view describe(FormatStatus status);  ///< one plain sentence

@@ -1,11 +1,11 @@
 // What every long call takes: how many threads, whom to tell, and whether to stop.
 #pragma once
 
+#include "pfgeom/base/error.h"
+
 #include <atomic>
 #include <functional>
 #include <string_view>
-
-#include "pfgeom/base/error.h"
 
 namespace pfgeom {
 

@@ -1,43 +1,43 @@
-// The public header of the whole: mesh -> model within a tolerance -> mesh. Owns the candidates, the choice by
-// bytes, and the closed loop encode -> decode -> polygonize -> measure -> repair.
+// The public header of the whole: mesh -> model within a tolerance -> mesh. Owns the candidates, the choice
+// by bytes, and the closed loop encode -> decode -> polygonize -> measure -> repair.
 #pragma once
-
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/prepare.h"
 #include "pfgeom/report/deviation.h"
 
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace pfgeom {
 
 struct CompressOptions {
-    double tolerance = 1e-3;     ///< > 0
-    bool relative = true;        ///< tolerance is a share of the bounding box's diagonal
+    double tolerance = 1e-3;  ///< > 0
+    bool relative = true;     ///< tolerance is a share of the bounding box's diagonal
     Metric metric = Metric::max;
 };
 
 /// What became of one island.
 struct IslandReport {
     std::int64_t faces = 0;
-    std::string candidate;       ///< "hierarchy" or "mesh"
-    double bytes = 0;            ///< estimated: objects share one stream
+    std::string candidate;  ///< "hierarchy" or "mesh"
+    double bytes = 0;       ///< estimated: objects share one stream
 };
 
 struct CompressReport {
     MeshDefects defects;
     std::vector<IslandReport> islands;
     std::int64_t input_vertices = 0, input_faces = 0;
-    std::int64_t raw_bytes = 0;  ///< as the paper counts: 12 a vertex and 12 a triangle
-    Deviation deviation;         ///< input against the default mesh, as measured at the end
+    std::int64_t raw_bytes = 0;   ///< as the paper counts: 12 a vertex and 12 a triangle
+    Deviation deviation;          ///< input against the default mesh, as measured at the end
     std::int64_t mesh_faces = 0;  ///< of the default mesh
 };
 
 struct Compressed {
-    Model model;                       ///< decoded from `bytes`: what everyone else will see
+    Model model;  ///< decoded from `bytes`: what everyone else will see
     std::vector<std::uint8_t> bytes;
     CompressReport report;
 };
@@ -46,14 +46,15 @@ struct Compressed {
 Compressed compress(const TriangleMesh& mesh, const CompressOptions& options, const Task& task = {});
 
 struct MeshOptions {
-    std::optional<double> tolerance;   ///< extra error of the mesh against the functions, in the mesh's units
-    std::optional<int> resolution;     ///< cells along the longest side, 8 .. 4096; not together with tolerance
+    std::optional<double> tolerance;  ///< extra error of the mesh against the functions, in the mesh's units
+    std::optional<int> resolution;  ///< cells along the longest side, 8 .. 4096; not together with tolerance
 };
 
 /// The default mesh (neither option set) is the one that the promise is about.
 TriangleMesh to_mesh(const Model& model, const MeshOptions& options = {}, const Task& task = {});
 
-/// The headline figure: surface functions + separators and trims + perturbations, and triangles of mesh parts.
+/// The headline figure: surface functions + separators and trims + perturbations, and triangles of mesh
+/// parts.
 struct FunctionCount {
     std::int64_t surface = 0, separators = 0, perturbations = 0, mesh_part_faces = 0;
 };

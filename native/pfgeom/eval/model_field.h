@@ -1,11 +1,11 @@
 // The whole model as one field: value, gradient and inside/outside at world points.
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "pfgeom/base/box.h"
 #include "pfgeom/function/model.h"
+
+#include <memory>
+#include <vector>
 
 namespace pfgeom {
 

@@ -1,9 +1,9 @@
 // What polygonizers, renderers and queries are written against: a scalar field, inside where it is >= 0.
 #pragma once
 
-#include <span>
-
 #include "pfgeom/base/box.h"
+
+#include <span>
 
 namespace pfgeom {
 

@@ -38,8 +38,10 @@ Frame Frame::around(const Box& box, double fill) {
     int low = kMinScale, high = kMaxScale;
     while (low < high) {
         const int code = low + (high - low) / 2;
-        if (fits(code)) high = code;
-        else low = code + 1;
+        if (fits(code))
+            high = code;
+        else
+            low = code + 1;
     }
     frame.scale_code = low;
     for (int axis = 0; axis < 3; ++axis) {

@@ -2,10 +2,10 @@
 // so that a frame read from a file is the frame that was written.
 #pragma once
 
+#include "pfgeom/base/box.h"
+
 #include <array>
 #include <cstdint>
-
-#include "pfgeom/base/box.h"
 
 namespace pfgeom {
 

@@ -2,14 +2,14 @@
 // codec stores it, eval evaluates it. Words as in docs/DESIGN.md.
 #pragma once
 
+#include "pfgeom/base/triangle.h"
+#include "pfgeom/function/frame.h"
+#include "pfgeom/function/quadric.h"
+
 #include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "pfgeom/base/triangle.h"
-#include "pfgeom/function/frame.h"
-#include "pfgeom/function/quadric.h"
 
 namespace pfgeom {
 
@@ -22,13 +22,13 @@ struct Perturbation {
 /// One level of a hierarchy of perturbations: balls Q = 1 - |x-c|²/r² of one radius. Centres and scales are
 /// derived (eval/derive.h) from the levels before and from `thin`; the form factors are z · step · scale.
 struct Level {
-    int depth = 0;                     ///< spacing h = 2 / 2^depth
-    double radius = 0;                 ///< r, in the cube's units
-    double step = 0;                   ///< of the quantiser, in the cube's units
-    std::vector<std::uint8_t> thin;    ///< coded: a flag for each candidate cell of the level before, or empty
-    std::vector<std::int32_t> z;       ///< coded: quantised form factors, one a centre
-    std::vector<Vec3> centres;         ///< derived
-    std::vector<double> scale;         ///< derived: |∇F| at the centre on the levels before (1 for lattice nodes)
+    int depth = 0;                   ///< spacing h = 2 / 2^depth
+    double radius = 0;               ///< r, in the cube's units
+    double step = 0;                 ///< of the quantiser, in the cube's units
+    std::vector<std::uint8_t> thin;  ///< coded: a flag for each candidate cell of the level before, or empty
+    std::vector<std::int32_t> z;     ///< coded: quantised form factors, one a centre
+    std::vector<Vec3> centres;       ///< derived
+    std::vector<double> scale;  ///< derived: |∇F| at the centre on the levels before (1 for lattice nodes)
     std::vector<std::uint8_t> lattice;  ///< derived: 1 = lattice node, 0 = centre on the surface
 
     double factor(std::size_t i) const { return z[i] * step * scale[i]; }
@@ -39,27 +39,28 @@ struct HierarchyHead {
     std::array<std::uint8_t, 3> axes{};  ///< base ellipsoid: semi-axis (axes + 1) / 256
     std::uint8_t step_code = 0;          ///< step of level 7 = 2^(-step_code / 8)
     std::uint8_t ratio_code = 74;        ///< step of level l = step of level 7 · (ratio_code / 64)^(l - 7)
-    std::uint8_t first_sheet = 4;        ///< levels 2 .. first_sheet-1 are lattices, then centres on the surface
+    std::uint8_t first_sheet = 4;  ///< levels 2 .. first_sheet-1 are lattices, then centres on the surface
 };
 
 /// F' = base + Σ f_i R_i. Inside is F' >= 0.
 struct Function {
     Quadric base;
     std::vector<Perturbation> perturbations;
-    HierarchyHead head;          ///< meaningful if there are levels
+    HierarchyHead head;  ///< meaningful if there are levels
     std::vector<Level> levels;
 };
 
-/// A set-theoretic expression over functions, in an array: children stand before their parents, the root last.
+/// A set-theoretic expression over functions, in an array: children stand before their parents, the root
+/// last.
 struct SetNode {
     enum class Kind : std::uint8_t {
-        function,      ///< a: index into Model::functions
-        unite,         ///< a, b: nodes
-        intersect,     ///< a, b: nodes
-        complement,    ///< a: node
-        decide,        ///< function `f` >= 0 ? node a : node b
-        inside,        ///< everything
-        outside        ///< nothing
+        function,    ///< a: index into Model::functions
+        unite,       ///< a, b: nodes
+        intersect,   ///< a, b: nodes
+        complement,  ///< a: node
+        decide,      ///< function `f` >= 0 ? node a : node b
+        inside,      ///< everything
+        outside      ///< nothing
     };
     Kind kind = Kind::outside;
     std::int32_t a = -1, b = -1, f = -1;
@@ -93,11 +94,11 @@ struct Similarity {
 
 /// What one island or segment of the mesh became.
 struct Object {
-    Frame frame;                          ///< of the functions' cube, or of the mesh part's grid
+    Frame frame;  ///< of the functions' cube, or of the mesh part's grid
     std::variant<Solid, Sheet, MeshPart> shape;
-    std::int32_t cavity_of = -1;          ///< the object that this one is taken out of, or -1
-    std::vector<Similarity> instances;    ///< further copies, beside the one that `frame` places
-    std::uint8_t mesh_code = 0;           ///< chord tolerance of the default mesh: diagonal · 2^(-mesh_code / 4)
+    std::int32_t cavity_of = -1;        ///< the object that this one is taken out of, or -1
+    std::vector<Similarity> instances;  ///< further copies, beside the one that `frame` places
+    std::uint8_t mesh_code = 0;  ///< chord tolerance of the default mesh: diagonal · 2^(-mesh_code / 4)
 };
 
 enum class Metric : std::uint8_t { max, rms };
@@ -105,16 +106,16 @@ enum class Metric : std::uint8_t { max, rms };
 /// What the encoder promised and measured, in the mesh's units, rounded up where it matters.
 struct Promise {
     Metric metric = Metric::max;
-    double tolerance = 0;       ///< what the user named
-    double bound_mesh = 0;      ///< largest deviation between the input and the default mesh
-    bool certified = false;     ///< bound_mesh is proved (else the largest of samples)
-    double rms = 0;             ///< two-sided, the worse direction
+    double tolerance = 0;    ///< what the user named
+    double bound_mesh = 0;   ///< largest deviation between the input and the default mesh
+    bool certified = false;  ///< bound_mesh is proved (else the largest of samples)
+    double rms = 0;          ///< two-sided, the worse direction
 };
 
 struct Model {
     std::vector<Function> functions;
     std::vector<Object> objects;
-    double diagonal = 0;                  ///< of the input's bounding box
+    double diagonal = 0;  ///< of the input's bounding box
     Promise promise;
     std::vector<std::string> names;       ///< optional: of the objects, or of the whole
     std::vector<double> world_transform;  ///< optional: 16 values, row-major

@@ -1,9 +1,9 @@
 // Q(x,y,z) = A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + I z + K (paper eq. 1, 9).
 #pragma once
 
-#include <array>
-
 #include "pfgeom/base/vec.h"
+
+#include <array>
 
 namespace pfgeom {
 
@@ -16,7 +16,8 @@ struct Quadric {
                (c[6] * p.x + c[7] * p.y + c[8] * p.z) + c[9];
     }
     Vec3 gradient(const Vec3& p) const {
-        return {2 * c[0] * p.x + c[3] * p.y + c[4] * p.z + c[6], c[3] * p.x + 2 * c[1] * p.y + c[5] * p.z + c[7],
+        return {2 * c[0] * p.x + c[3] * p.y + c[4] * p.z + c[6],
+                c[3] * p.x + 2 * c[1] * p.y + c[5] * p.z + c[7],
                 c[4] * p.x + c[5] * p.y + 2 * c[2] * p.z + c[8]};
     }
     friend bool operator==(const Quadric&, const Quadric&) = default;
