@@ -36,4 +36,20 @@ struct Task {
     }
 };
 
+/// A share of a task: its progress from 0 to 1 is the whole's from `from` to `to`. `whole` must outlive it.
+inline Task part_of(const Task& whole, double from, double to) {
+    Task part{whole.threads, whole.cancel, {}};
+    if (whole.progress) {
+        part.progress = [&whole, from, to](double fraction, std::string_view stage) {
+            whole.progress(from + (to - from) * fraction, stage);
+        };
+    }
+    return part;
+}
+
+/// The same task without progress, on so many threads: for work inside a parallel loop.
+inline Task quiet(const Task& whole, int threads) {
+    return {threads, whole.cancel, {}};
+}
+
 }  // namespace pfgeom

@@ -1,9 +1,11 @@
-// Mesh files: OBJ, PLY, STL and OFF, ascii and binary, polygons (triangulated) and triangle strips.
+// Mesh files: OBJ, PLY, STL and OFF, ascii and binary, polygons (triangulated) and triangle strips. The
+// readers are our own: OpenMesh's take non-manifold faces apart, know no strips, guess where a file is
+// damaged, and end the process on a count that is too large (docs/MESHES.md has the cases).
 #pragma once
 
-#include <string>
-
 #include "pfgeom/mesh/triangle_mesh.h"
+
+#include <string>
 
 namespace pfgeom {
 
