@@ -1,0 +1,66 @@
+// A scalar field closed at the faces of the cube [-1,1]³: min(field, distance to the cube's faces).
+#pragma once
+
+#include <limits>
+
+#include "pfgeom/eval/scalar_field.h"
+#include "pfgeom/polygonize/lattice.h"
+
+namespace pfgeom {
+
+class CubeField {
+  public:
+    CubeField(const ScalarField& field, int max_depth)
+        : field_(field), side_(std::int32_t{1} << max_depth), step_(2.0 / side_) {}
+
+    std::int32_t side() const { return side_; }  ///< of the cube, in steps of the lattice
+    double step() const { return step_; }
+    Vec3 position(const LatticePoint& p) const {
+        return {p[0] * step_ - 1, p[1] * step_ - 1, p[2] * step_ - 1};
+    }
+    bool on_cube(const LatticePoint& p) const {
+        for (const std::int32_t c : p)
+            if (c == 0 || c == side_) return true;
+        return false;
+    }
+
+    double value(const Vec3& p) const { return guarded(std::min(field_.value(p), to_faces(p))); }
+    /// Points on the cube are outside, so that no surface leaves it.
+    double value(const LatticePoint& p) const { return lattice_value(p, value(position(p))); }
+    double value_and_gradient(const Vec3& p, Vec3& gradient) const {
+        const double inner = field_.value_and_gradient(p, gradient), faces = to_faces(p);
+        if (!(faces < inner)) return guarded(inner);
+        gradient = {};
+        for (int axis = 0; axis < 3; ++axis)
+            if (faces == 1 - std::abs(p[axis])) {
+                gradient[axis] = p[axis] < 0 ? 1 : -1;
+                break;
+            }
+        return faces;
+    }
+    double value_and_gradient(const LatticePoint& p, Vec3& gradient) const {
+        return lattice_value(p, value_and_gradient(position(p), gradient));
+    }
+    /// Can the cell hold a zero? A cell that touches the cube's faces cannot be inside altogether.
+    bool may_cross(const LatticePoint& low, std::int32_t size) const {
+        const LatticePoint high = cube_corner(low, size, 7);
+        const Interval range = field_.range({position(low), position(high)});
+        const bool wholly_inside = range.lo >= 0 && !on_cube(low) && !on_cube(high);
+        return !(wholly_inside || range.hi < 0);
+    }
+
+  private:
+    static double to_faces(const Vec3& p) {
+        return 1 - std::max(std::max(std::abs(p.x), std::abs(p.y)), std::abs(p.z));
+    }
+    static double guarded(double v) { return v == v ? v : -1.0; }  // not a number counts as outside
+    double lattice_value(const LatticePoint& p, double v) const {
+        return v >= 0 && on_cube(p) ? -std::numeric_limits<double>::min() : v;
+    }
+
+    const ScalarField& field_;
+    std::int32_t side_;
+    double step_;
+};
+
+}  // namespace pfgeom

@@ -1,0 +1,228 @@
+// Refinement of the octree. A cell is split where the unit gradients at its eight corners and its centre say
+// that a mesh with edges of its size would leave the chord tolerance, or that the cell may hold more than one
+// sheet. Sources: range test of cells, J. M. Snyder, "Interval analysis for computer graphics", SIGGRAPH 1992;
+// Hermite data for the error of a cell, T. Ju et al., "Dual contouring of Hermite data", SIGGRAPH 2002.
+// Departures: no QEF of a cell is solved; the change of normals times the distance is the error's estimate.
+#include "pfgeom/polygonize/octree.h"
+
+#include <algorithm>
+#include <string>
+
+namespace pfgeom {
+namespace {
+
+constexpr std::size_t kChunk = 128;  // cells or points a job: some 0.2 ms, and cancel polls between jobs
+
+// Normals further apart than 60° within half a cell: its surface is no height field, and in a cell without a
+// change of sign a small sheet may hide (a closed sheet turns its normals all around).
+constexpr double kWide = 0.5;
+
+// Are the inside corners connected along the cube's edges, and the outside corners too? Then the cell has one
+// sheet of surface.
+constexpr bool one_sheet(unsigned inside) {
+    for (const unsigned set : {inside, ~inside & 255U}) {
+        if (set == 0) continue;
+        unsigned reached = set & (~set + 1);
+        for (int round = 0; round < 8; ++round)
+            for (unsigned i = 0; i < 8; ++i)
+                if (reached >> i & 1)
+                    for (unsigned axis = 0; axis < 3; ++axis) reached |= (1U << (i ^ (1U << axis))) & set;
+        if (reached != set) return false;
+    }
+    return true;
+}
+
+constexpr auto kOneSheet = [] {
+    std::array<bool, 256> table{};
+    for (unsigned i = 0; i < 256; ++i) table[i] = one_sheet(i);
+    return table;
+}();
+
+Vec3 normal_of(const Sample& s) { return {s.normal[0], s.normal[1], s.normal[2]}; }
+
+void evaluate(const CubeField& field, Sample& sample, bool with_normal) {
+    if (!with_normal) {
+        sample.value = field.value(sample.point);
+        return;
+    }
+    Vec3 gradient;
+    sample.value = field.value_and_gradient(sample.point, gradient);
+    const Vec3 n = is_finite(gradient) ? normalized(gradient) : Vec3{};
+    sample.normal = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+}
+
+}  // namespace
+
+Octree::Octree(const CubeField& field, const PolygonizeOptions& options, double chord, const Task& task)
+    : field_(field), options_(options), task_(task), chord_(chord), nodes_(1) {
+    nodes_[0].may_cross = field_.may_cross(nodes_[0].corner, field_.side());
+    refine();
+    balance();
+}
+
+std::int32_t Octree::find(const LatticePoint& corner, int depth) const {
+    std::int32_t at = 0;
+    for (int d = 1; d <= depth && nodes_[at].children >= 0; ++d) {
+        const int bit = options_.max_depth - d;
+        at = nodes_[at].children +
+             ((corner[0] >> bit & 1) | (corner[1] >> bit & 1) << 1 | (corner[2] >> bit & 1) << 2);
+    }
+    return at;
+}
+
+bool Octree::contains(const LatticePoint& cell) const {
+    for (const std::int32_t c : cell)
+        if (c < 0 || c >= field_.side()) return false;
+    return true;
+}
+
+bool Octree::is_split(const LatticePoint& corner, int depth) const {
+    if (depth >= deepest_ || !contains(corner)) return false;
+    const OctreeNode& node = nodes_[find(corner, depth)];
+    return node.depth == depth && !node.leaf();
+}
+
+double Octree::value(const LatticePoint& p) const {
+    const Sample* sample = samples_.find(p);
+    return sample ? sample->value : field_.value(p);
+}
+
+void Octree::refine() {
+    std::vector<std::int32_t> cells;
+    if (nodes_[0].may_cross) cells.push_back(0);
+    for (int depth = 0; !cells.empty(); ++depth) {
+        task_.report(0.4 * depth / (options_.max_depth + 1), "cells");
+        if (depth >= options_.min_depth) sample_corners(cells, depth < options_.max_depth);
+        if (depth == options_.max_depth) break;
+        cells = split(depth < options_.min_depth ? cells : cells_to_split(cells));
+    }
+}
+
+// Gives the parents children; returns those that the surface can cross.
+std::vector<std::int32_t> Octree::split(const std::vector<std::int32_t>& parents) {
+    const std::size_t first = nodes_.size(), total = first + 8 * parents.size();
+    if (total > options_.max_cells)
+        throw LimitExceeded("polygonize: more than max_cells = " + std::to_string(options_.max_cells) + " cells");
+    nodes_.resize(total);
+    parallel_chunks(parents.size(), kChunk / 8, task_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            OctreeNode& parent = nodes_[parents[i]];
+            parent.children = static_cast<std::int32_t>(first + 8 * i);
+            for (int k = 0; k < 8; ++k) {
+                OctreeNode& child = nodes_[parent.children + k];
+                child.depth = static_cast<std::uint8_t>(parent.depth + 1);
+                const std::int32_t size = size_at(child.depth);
+                child.corner = cube_corner(parent.corner, size, k);
+                child.may_cross = field_.may_cross(child.corner, size);
+            }
+        }
+    });
+    std::vector<std::int32_t> survivors;
+    for (std::size_t i = first; i < total; ++i) {
+        deepest_ = std::max<int>(deepest_, nodes_[i].depth);
+        if (nodes_[i].may_cross) survivors.push_back(static_cast<std::int32_t>(i));
+    }
+    return survivors;
+}
+
+void Octree::sample_corners(const std::vector<std::int32_t>& cells, bool with_normals) {
+    const std::size_t first = samples_.size();
+    std::vector<std::array<std::int32_t, 8>> rows(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i % 1024 == 0) task_.check();
+        const OctreeNode& node = nodes_[cells[i]];
+        for (int k = 0; k < 8; ++k)
+            rows[i][k] = samples_.find_or_add(cube_corner(node.corner, size_at(node.depth), k));
+    }
+    parallel_chunks(samples_.size() - first, kChunk, task_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = first + begin; i < first + end; ++i) evaluate(field_, samples_[i], with_normals);
+    });
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        OctreeNode& node = nodes_[cells[i]];
+        node.sampled = true;
+        node.inside = 0;
+        for (int k = 0; k < 8; ++k)
+            if (samples_[rows[i][k]].value >= 0) node.inside |= static_cast<std::uint8_t>(1 << k);
+    }
+}
+
+// The cells (above max_depth, with sampled corners) that one more level would serve better. Their centres are
+// kept as samples, since they become corners.
+std::vector<std::int32_t> Octree::cells_to_split(const std::vector<std::int32_t>& cells) {
+    std::vector<Sample> centres(cells.size());
+    std::vector<char> wanted(cells.size());
+    parallel_chunks(cells.size(), kChunk, task_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) wanted[i] = should_split(nodes_[cells[i]], centres[i]);
+    });
+    std::vector<std::int32_t> chosen;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (!wanted[i]) continue;
+        chosen.push_back(cells[i]);
+        samples_[samples_.find_or_add(centres[i].point)] = centres[i];
+    }
+    return chosen;
+}
+
+// If so, `centre` is filled in.
+bool Octree::should_split(const OctreeNode& node, Sample& centre) const {
+    std::array<const Sample*, 8> corners{};
+    Vec3 mean;
+    for (int k = 0; k < 8; ++k) {
+        corners[k] = samples_.find(cube_corner(node.corner, size_at(node.depth), k));
+        mean += normal_of(*corners[k]);
+    }
+    mean = normalized(mean);
+    bool wide = false;
+    for (const Sample* corner : corners) wide |= !(dot(normal_of(*corner), mean) >= kWide);
+    if (!wide && !node.mixed()) return false;  // no room for a sheet
+    centre.point = cube_corner(node.corner, size_at(node.depth + 1), 7);
+    evaluate(field_, centre, true);
+    return wide || !kOneSheet[node.inside] || chord(corners, centre) > chord_;
+}
+
+// For a chord from the centre to a corner, normals n and n' at its ends and the vector d between them, the
+// arc's height is |(n' - n)·d| / 8 up to third order; an edge of the mesh is some 1.4 times as long.
+double Octree::chord(const std::array<const Sample*, 8>& corners, const Sample& centre) const {
+    double highest = 0;
+    for (const Sample* corner : corners) {
+        const Vec3 d = field_.position(corner->point) - field_.position(centre.point);
+        highest = std::max(highest, std::abs(dot(normal_of(*corner) - normal_of(centre), d)) / 4);
+    }
+    return highest;
+}
+
+// Neighbouring cells that the surface crosses differ by at most one level (better shapes; the mesh would be
+// closed without it).
+void Octree::balance() {
+    for (int depth = deepest_ - 1; depth > options_.min_depth; --depth) {
+        for (;;) {
+            std::vector<std::int32_t> coarse;
+            for (std::size_t i = 0; i < nodes_.size(); ++i) {
+                if (i % 1024 == 0) task_.check();
+                if (nodes_[i].depth == depth && !nodes_[i].leaf()) add_coarse_neighbours(nodes_[i], coarse);
+            }
+            std::sort(coarse.begin(), coarse.end());
+            coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
+            if (coarse.empty()) break;
+            sample_corners(split(coarse), false);
+        }
+    }
+}
+
+// Leaves beside `parent` that are larger than it, where its children carry surface.
+void Octree::add_coarse_neighbours(const OctreeNode& parent, std::vector<std::int32_t>& coarse) const {
+    bool surface = false;
+    for (int k = 0; k < 8; ++k) surface |= nodes_[parent.children + k].mixed();
+    if (!surface) return;
+    const std::int32_t size = size_at(parent.depth);
+    for (int k = 0; k < 27; ++k) {
+        const LatticePoint beside = {parent.corner[0] + (k % 3 - 1) * size,
+                                     parent.corner[1] + (k / 3 % 3 - 1) * size,
+                                     parent.corner[2] + (k / 9 - 1) * size};
+        if (!contains(beside)) continue;
+        const std::int32_t other = find(beside, parent.depth);
+        if (nodes_[other].depth < parent.depth && nodes_[other].mixed()) coarse.push_back(other);
+    }
+}
+
+}  // namespace pfgeom
