@@ -39,6 +39,10 @@ class Fitter {
             Level level = empty_level(fit.function.head, depth);
             if (!fit_level(fit.function.head, level, fit.bits)) break;
             fit.function.levels.push_back(std::move(level));
+            if (fit.bits > options_.most_bits) {
+                fit.function.levels.clear();
+                return fit;
+            }
         }
         estimate_error(fit);
         return fit;

@@ -1,0 +1,205 @@
+#include "pfgeom/fit/collapse.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+#include "pfgeom/fit/symmetric3.h"
+
+namespace pfgeom {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// A proposal whose error is above this share of the limit is fitted to the samples.
+constexpr double kWorthFitting = 0.3;
+// A proposal this much over the limit is fitted too; beyond, fitting does not save it.
+constexpr double kMayBeSaved = 3;
+
+// Σ w (n·x + d)² over planes.
+struct PlaneQuadric {
+    Symmetric3 a;
+    Vec3 b;
+    double c = 0, weight = 0;
+
+    void add(const Vec3& normal, const Vec3& point, double w) {
+        const double d = -dot(normal, point);
+        a.add(normal, w);
+        b += normal * (w * d);
+        c += w * d * d;
+        weight += w;
+    }
+    PlaneQuadric& operator+=(const PlaneQuadric& o) {
+        a += o.a, b += o.b, c += o.c, weight += o.weight;
+        return *this;
+    }
+    double operator()(const Vec3& x) const { return std::max(dot(x, a * x) + 2 * dot(b, x) + c, 0.0); }
+    // Where it is least; along directions that it leaves open, as near to `middle` as possible.
+    Vec3 least(const Vec3& middle) const {
+        Symmetric3 system = a;
+        system.add_diagonal(1e-3 * a.trace());
+        return middle - system.solve(a * middle + b);
+    }
+};
+
+std::vector<PlaneQuadric> quadrics_of(const CollapseMesh& mesh) {
+    std::vector<PlaneQuadric> quadrics(mesh.vertex_count());
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        const auto v = static_cast<std::int32_t>(i);
+        const std::vector<std::int32_t> rims = mesh.neighbours(v, false);
+        for (const std::int32_t f : mesh.faces_at(v)) {
+            const auto t = mesh.corners(f);
+            const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+            quadrics[i].add(normalized(n), t[0], norm(n));
+            for (const std::int32_t w : mesh.face(f)) {  // borders hold their place across the surface
+                if (!std::binary_search(rims.begin(), rims.end(), w)) continue;
+                const Vec3 edge = mesh.point(w) - mesh.point(v);
+                quadrics[i].add(normalized(cross(edge, n)), mesh.point(v), squared_norm(edge));
+            }
+        }
+    }
+    return quadrics;
+}
+
+class Collapser {
+  public:
+    Collapser(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task)
+        : mesh_(mesh), error_(error), limits_(limits), task_(task), quadrics_(quadrics_of(mesh)),
+          moved_(mesh.vertex_count(), 0), changed_(mesh.vertex_count(), 0) {}
+    void run();
+
+  private:
+    struct Entry {
+        double key;
+        std::int32_t u, v;
+        std::uint32_t clock;
+        bool measured;
+        Vec3 place;  // if measured
+        bool operator<(const Entry& o) const {
+            return key != o.key ? key > o.key : u != o.u ? u > o.u : v != o.v ? v > o.v : clock > o.clock;
+        }
+    };
+    struct Proposal {
+        Vec3 place;
+        double cost = kInfinity;
+    };
+    void propose(std::int32_t u, std::int32_t v);
+    Proposal measure(std::int32_t u, std::int32_t v);
+    Proposal measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double limit);
+    bool apply(std::int32_t u, std::int32_t v, const Vec3& place);
+    double limit() const;
+    double length_cost(std::int32_t u, std::int32_t v) const;
+
+    CollapseMesh& mesh_;
+    CollapseError& error_;
+    const CollapseLimits& limits_;
+    const Task& task_;
+    std::vector<PlaneQuadric> quadrics_;
+    std::vector<std::uint32_t> moved_, changed_;  // clock of the last change of a vertex, and of its faces
+    std::priority_queue<Entry> queue_;
+    std::uint32_t clock_ = 0;
+    Patch patch_;
+};
+
+// What a single collapse may cost.
+double Collapser::limit() const {
+    if (limits_.metric == Metric::max) return limits_.forward;
+    return (limits_.forward * limits_.forward - error_.mean_square()) * error_.total_weight();
+}
+
+double Collapser::length_cost(std::int32_t u, std::int32_t v) const {
+    const double share = 0.02 * norm(mesh_.point(u) - mesh_.point(v)) / limits_.size;
+    if (limits_.metric == Metric::max) return share * limits_.forward;
+    return share * 1e-3 * limits_.forward * limits_.forward * error_.total_weight() / 1e3;
+}
+
+void Collapser::propose(std::int32_t u, std::int32_t v) {
+    PlaneQuadric q = quadrics_[static_cast<std::size_t>(u)];
+    q += quadrics_[static_cast<std::size_t>(v)];
+    const double rest = q(q.least((mesh_.point(u) + mesh_.point(v)) * 0.5));
+    // Both in the unit of forward(): the quadrics' weights are doubled areas, counted at three corners.
+    const double estimate = limits_.metric == Metric::max ? std::sqrt(rest / std::max(q.weight, 1e-300)) : rest / 6;
+    queue_.push({estimate + length_cost(u, v), u, v, clock_, false, {}});
+}
+
+Collapser::Proposal Collapser::measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double most) {
+    mesh_.patch_of_collapse(u, v, p, patch_);
+    if (!mesh_.keeps_orientation(patch_)) return {p, kInfinity};
+    return {p, error_.forward(patch_, most)};
+}
+
+Collapser::Proposal Collapser::measure(std::int32_t u, std::int32_t v) {
+    PlaneQuadric q = quadrics_[static_cast<std::size_t>(u)];
+    q += quadrics_[static_cast<std::size_t>(v)];
+    const double most = limit();
+    Proposal best = measure_at(u, v, q.least((mesh_.point(u) + mesh_.point(v)) * 0.5), kMayBeSaved * most);
+    if (best.cost > kWorthFitting * most && best.cost < kInfinity) {
+        const Proposal fitted = measure_at(u, v, error_.fitted(patch_), std::min(best.cost, most));
+        if (fitted.cost < best.cost) best = fitted;
+    }
+    if (best.cost > most) best.cost = kInfinity;
+    return best;
+}
+
+bool Collapser::apply(std::int32_t u, std::int32_t v, const Vec3& place) {
+    mesh_.patch_of_collapse(u, v, place, patch_);
+    if (error_.backward(patch_, limits_.backward) == kInfinity) return false;
+    error_.commit(patch_);
+    mesh_.collapse(u, v, place);
+    quadrics_[static_cast<std::size_t>(v)] += quadrics_[static_cast<std::size_t>(u)];
+    moved_[static_cast<std::size_t>(v)] = changed_[static_cast<std::size_t>(v)] = ++clock_;
+    moved_[static_cast<std::size_t>(u)] = clock_;
+    for (const std::int32_t w : mesh_.neighbours(v)) {
+        changed_[static_cast<std::size_t>(w)] = clock_;
+        propose(std::min(v, w), std::max(v, w));
+    }
+    return true;
+}
+
+void Collapser::run() {
+    for (const auto& [u, v] : mesh_.edges()) propose(u, v);
+    while (!queue_.empty()) {
+        const Entry top = queue_.top();
+        queue_.pop();
+        task_.check();
+        const auto u = static_cast<std::size_t>(top.u), v = static_cast<std::size_t>(top.v);
+        if (top.clock < std::max(moved_[u], moved_[v])) continue;  // gone, or proposed anew
+        if (!mesh_.may_collapse(top.u, top.v)) continue;
+        if (top.measured && top.clock >= std::max(changed_[u], changed_[v])) {
+            apply(top.u, top.v, top.place);
+            continue;
+        }
+        const Proposal found = measure(top.u, top.v);
+        if (found.cost == kInfinity) continue;
+        const double key = found.cost + length_cost(top.u, top.v);
+        if (key > top.key && !queue_.empty() && key > queue_.top().key) {
+            queue_.push({key, top.u, top.v, clock_, true, found.place});
+        } else {
+            apply(top.u, top.v, found.place);
+        }
+    }
+}
+
+}  // namespace
+
+void collapse_edges(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task) {
+    Collapser(mesh, error, limits, task).run();
+}
+
+void relax_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task) {
+    Patch patch;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        const auto v = static_cast<std::int32_t>(i);
+        if (mesh.faces_at(v).empty()) continue;
+        task.check();
+        mesh.patch_of_move(v, mesh.point(v), patch);
+        const double before = error.forward(patch, kInfinity);
+        const Vec3 place = error.fitted(patch);
+        patch.move_to(place);
+        if (!mesh.keeps_orientation(patch) || !(error.forward(patch, before) < before)) continue;
+        if (error.backward(patch, limits.backward) == kInfinity) continue;
+        error.commit(patch);
+        mesh.move(v, place);
+    }
+}
+
+}  // namespace pfgeom

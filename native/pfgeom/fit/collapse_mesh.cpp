@@ -1,0 +1,160 @@
+#include "pfgeom/fit/collapse_mesh.h"
+
+#include <algorithm>
+
+namespace pfgeom {
+namespace {
+
+bool has(const Triangle& t, std::int32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+// The corners of t from v on, in their cyclic order.
+std::array<std::int32_t, 3> from_corner(const Triangle& t, std::int32_t v) {
+    if (t[0] == v) return t;
+    if (t[1] == v) return {t[1], t[2], t[0]};
+    return {t[2], t[0], t[1]};
+}
+
+Vec3 doubled_area(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+double longest_squared(const std::array<Vec3, 3>& t) {
+    return std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])});
+}
+
+// A face may turn by up to 78 degrees at once, and become flatter than kFlattest (its height over its longest edge)
+// only if it was flatter before: else it would be folded over by the next rounding to the grid.
+constexpr double kLeastCosine = 0.2, kFlattest = 0.02;
+
+}  // namespace
+
+CollapseMesh::CollapseMesh(const TriangleMesh& mesh)
+    : points_(mesh.vertices), faces_(mesh.faces), at_(mesh.vertices.size()), alive_(mesh.faces.size()) {
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        for (const std::int32_t v : faces_[f]) at_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(f));
+    }
+}
+
+std::vector<std::array<std::int32_t, 2>> CollapseMesh::edges() const {
+    std::vector<std::array<std::int32_t, 2>> edges;
+    for (std::size_t v = 0; v < at_.size(); ++v) {
+        const auto low = static_cast<std::int32_t>(v);
+        for (const std::int32_t high : neighbours(low)) {
+            if (high > low) edges.push_back({low, high});
+        }
+    }
+    return edges;
+}
+
+std::vector<std::int32_t> CollapseMesh::neighbours(std::int32_t v, bool all) const {
+    std::vector<std::int32_t> ends;
+    for (const std::int32_t f : faces_at(v)) {
+        for (const std::int32_t w : face(f)) {
+            if (w != v) ends.push_back(w);
+        }
+    }
+    std::sort(ends.begin(), ends.end());
+    std::vector<std::int32_t> result;
+    for (std::size_t i = 0, j = 0; i < ends.size(); i = j) {
+        while (j < ends.size() && ends[j] == ends[i]) ++j;
+        if (all || j - i != 2) result.push_back(ends[i]);
+    }
+    return result;
+}
+
+bool CollapseMesh::may_collapse(std::int32_t u, std::int32_t v) const {
+    const std::vector<std::int32_t> of_u = neighbours(u), of_v = neighbours(v);
+    std::vector<std::int32_t> common;
+    std::set_intersection(of_u.begin(), of_u.end(), of_v.begin(), of_v.end(), std::back_inserter(common));
+    std::size_t shared = 0, others = 0;
+    std::vector<std::array<std::int32_t, 2>> opposite;
+    for (const std::int32_t end : {u, v}) {
+        for (const std::int32_t f : faces_at(end)) {
+            if (has(face(f), u) && has(face(f), v)) {
+                shared += end == u ? 1 : 0;
+                continue;
+            }
+            const auto t = from_corner(face(f), end);
+            opposite.push_back({std::min(t[1], t[2]), std::max(t[1], t[2])});
+            ++others;
+        }
+    }
+    if (shared == 0 || common.size() != shared || others == 0) return false;
+    std::sort(opposite.begin(), opposite.end());
+    if (std::adjacent_find(opposite.begin(), opposite.end()) != opposite.end()) return false;
+    // Two borders that meet across an inner edge would be pinched together.
+    return shared != 2 || neighbours(u, false).empty() || neighbours(v, false).empty();
+}
+
+void CollapseMesh::patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) const {
+    patch.before = patch.after = faces_at(v);
+    patch.triangles.clear();
+    for (const std::int32_t f : patch.after) {
+        const auto t = from_corner(face(f), v);
+        patch.triangles.push_back({p, point(t[1]), point(t[2])});
+    }
+}
+
+void CollapseMesh::patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3& p, Patch& patch) const {
+    patch.before.clear();
+    patch.after.clear();
+    patch.triangles.clear();
+    for (const std::int32_t end : {v, u}) {
+        for (const std::int32_t f : faces_at(end)) {
+            const bool shared = has(face(f), u) && has(face(f), v);
+            if (!shared || end == v) patch.before.push_back(f);
+            if (shared) continue;
+            const auto t = from_corner(face(f), end);
+            patch.after.push_back(f);
+            patch.triangles.push_back({p, point(t[1]), point(t[2])});
+        }
+    }
+}
+
+bool CollapseMesh::keeps_orientation(const Patch& patch) const {
+    for (std::size_t i = 0; i < patch.after.size(); ++i) {
+        const std::array<Vec3, 3> old = corners(patch.after[i]);
+        const Vec3 before = doubled_area(old), after = doubled_area(patch.triangles[i]);
+        const double b = norm(before), a = norm(after);
+        if (b > 0 && dot(before, after) < kLeastCosine * a * b) return false;
+        const double flatness = a / std::max(longest_squared(patch.triangles[i]), 1e-300);
+        if (flatness < kFlattest && flatness < b / std::max(longest_squared(old), 1e-300)) return false;
+    }
+    return true;
+}
+
+void CollapseMesh::collapse(std::int32_t u, std::int32_t v, const Vec3& p) {
+    std::vector<std::int32_t> moved = std::move(at_[static_cast<std::size_t>(u)]);
+    at_[static_cast<std::size_t>(u)].clear();
+    for (const std::int32_t f : moved) {
+        Triangle& t = faces_[static_cast<std::size_t>(f)];
+        if (has(t, v)) {
+            for (const std::int32_t w : t) std::erase(at_[static_cast<std::size_t>(w)], f);
+            t = {-1, -1, -1};
+            --alive_;
+        } else {
+            std::replace(t.begin(), t.end(), u, v);
+            at_[static_cast<std::size_t>(v)].push_back(f);
+        }
+    }
+    move(v, p);
+}
+
+TriangleMesh CollapseMesh::result() const {
+    TriangleMesh mesh;
+    std::vector<std::int32_t> row(points_.size(), -1);
+    for (const Triangle& t : faces_) {
+        if (t[0] < 0) continue;
+        Triangle face;
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::int32_t& r = row[static_cast<std::size_t>(t[k])];
+            if (r < 0) {
+                r = static_cast<std::int32_t>(mesh.vertices.size());
+                mesh.vertices.push_back(point(t[k]));
+            }
+            face[k] = r;
+        }
+        mesh.faces.push_back(face);
+    }
+    return mesh;
+}
+
+}  // namespace pfgeom

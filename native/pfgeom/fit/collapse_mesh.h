@@ -1,0 +1,60 @@
+// A triangle soup that edge collapses thin out: corners of faces, and the faces at each vertex. No half-edges, so
+// that edges with any number of faces and vertices with any number of fans are nothing special.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pfgeom/mesh/triangle_mesh.h"
+
+namespace pfgeom {
+
+/// What an operation would do: the faces around one vertex at its new place, instead of the faces before.
+struct Patch {
+    std::vector<std::int32_t> before;             ///< faces whose surface is replaced
+    std::vector<std::int32_t> after;              ///< those of them that stay
+    std::vector<std::array<Vec3, 3>> triangles;   ///< of each of `after`; corner 0 is the moving vertex
+    void move_to(const Vec3& p) {
+        for (auto& t : triangles) t[0] = p;
+    }
+};
+
+class CollapseMesh {
+  public:
+    explicit CollapseMesh(const TriangleMesh& mesh);
+
+    const Vec3& point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
+    const Triangle& face(std::int32_t f) const { return faces_[static_cast<std::size_t>(f)]; }
+    const std::vector<std::int32_t>& faces_at(std::int32_t v) const { return at_[static_cast<std::size_t>(v)]; }
+    std::size_t vertex_count() const { return points_.size(); }
+    std::size_t face_count() const { return alive_; }
+    std::array<Vec3, 3> corners(std::int32_t f) const { return {point(face(f)[0]), point(face(f)[1]), point(face(f)[2])}; }
+
+    /// Every edge once, lower vertex first, in rising order.
+    std::vector<std::array<std::int32_t, 2>> edges() const;
+    /// The other ends of the edges at v that one face has, or more than two (sorted); of all edges if `all`.
+    std::vector<std::int32_t> neighbours(std::int32_t v, bool all = true) const;
+    /// The link condition, and no two faces that would cover each other; u and v are the ends of an edge.
+    bool may_collapse(std::int32_t u, std::int32_t v) const;
+
+    /// Fills `patch` (kept for its memory) with the move of v to p, or of the collapse of u into v at p.
+    void patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) const;
+    void patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3& p, Patch& patch) const;
+    /// No triangle of the patch is turned over, or folded onto a line.
+    bool keeps_orientation(const Patch& patch) const;
+
+    void move(std::int32_t v, const Vec3& p) { points_[static_cast<std::size_t>(v)] = p; }
+    void collapse(std::int32_t u, std::int32_t v, const Vec3& p);
+
+    /// The faces that are left, with the vertices in use.
+    TriangleMesh result() const;
+
+  private:
+    std::vector<Vec3> points_;
+    std::vector<Triangle> faces_;  // a removed one: -1, -1, -1
+    std::vector<std::vector<std::int32_t>> at_;
+    std::size_t alive_ = 0;
+};
+
+}  // namespace pfgeom

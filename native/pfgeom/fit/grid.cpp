@@ -1,0 +1,177 @@
+#include "pfgeom/fit/grid.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace pfgeom {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMendingRounds = 4;
+// A coarser lattice must leave some of the limit to the neighbours.
+constexpr double kSlack = 0.93;
+constexpr int kCoarsest = 3;  // lattices of 2^3 steps
+// Coordinates stay below 2^26, well within what the codec takes.
+constexpr int kFinestCode = -8 * 26;
+
+using GridPoint = std::array<std::int32_t, 3>;
+
+Vec3 normal_at(const CollapseMesh& mesh, std::int32_t v) {
+    Vec3 sum;
+    for (const std::int32_t f : mesh.faces_at(v)) {
+        const auto t = mesh.corners(f);
+        sum += cross(t[1] - t[0], t[2] - t[0]);
+    }
+    return normalized(sum);
+}
+
+std::size_t steepest(const Vec3& n) {
+    const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+    return x > y && x > z ? 0 : y > z ? 1 : 2;
+}
+
+class Snapper {
+  public:
+    Snapper(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid)
+        : mesh_(mesh), error_(error), limits_(limits), grid_(grid) {}
+
+    void snap(std::int32_t v, double limit) {
+        const Vec3 normal = normal_at(mesh_, v);
+        static const int LV = getenv("LV") ? atoi(getenv("LV")) : 0xf; for (int level = kCoarsest; level >= 0; --level) { if (!((LV >> level) & 1)) continue;
+            if (try_level(v, normal, level, level > 0 ? kSlack * limit : limit)) return;
+        }
+        take_least_evil(v);
+    }
+
+    /// Measures finely; moves what is over the limit, and its neighbours, from grid point to grid point while that
+    /// makes the worst better.
+    void mend(double limit, const Task& task) {
+        std::vector<std::int32_t> open(mesh_.vertex_count());
+        std::iota(open.begin(), open.end(), 0);
+        for (int round = 0; round < kMendingRounds && !open.empty(); ++round) {
+            std::vector<std::int32_t> failed;
+            for (const std::int32_t v : open) {
+                task.check();
+                if (mesh_.faces_at(v).empty() || holds(v, limit)) continue;
+                for (const std::int32_t w : mesh_.neighbours(v)) take_least_evil(w);
+                take_least_evil(v);
+                failed.push_back(v);
+            }
+            open = std::move(failed);
+        }
+    }
+
+  private:
+    bool holds(std::int32_t v, double limit) {
+        mesh_.patch_of_move(v, mesh_.point(v), patch_);
+        return error_.forward(patch_, limit) <= limit && error_.backward(patch_, limits_.backward) < kInfinity;
+    }
+    double cost(std::int32_t v, const GridPoint& q, double limit) {
+        mesh_.patch_of_move(v, grid_.point(q), patch_);
+        return mesh_.keeps_orientation(patch_) ? error_.forward(patch_, limit) : kInfinity;
+    }
+    bool take(std::int32_t v, const GridPoint& q) {
+        mesh_.patch_of_move(v, grid_.point(q), patch_);
+        error_.commit(patch_);
+        mesh_.move(v, grid_.point(q));
+        return true;
+    }
+
+    // The lattice point next to the vertex, at the height above it where the surface is, and one step to each side.
+    bool try_level(std::int32_t v, const Vec3& normal, int level, double limit) {
+        const Vec3 p = mesh_.point(v);
+        GridPoint q = grid_.nearest(p);
+        const std::size_t w = steepest(normal);
+        double slide = 0;
+        for (const std::size_t axis : {(w + 1) % 3, (w + 2) % 3}) {
+            const std::int32_t pitch = 1 << level;
+            q[axis] = static_cast<std::int32_t>(std::floor(static_cast<double>(q[axis]) / pitch + 0.5)) * pitch;
+            slide += normal[static_cast<int>(axis)] * (grid_.point(q)[static_cast<int>(axis)] - p[static_cast<int>(axis)]);
+        }
+        Vec3 on_surface = p;
+        if (normal[static_cast<int>(w)] != 0) on_surface[static_cast<int>(w)] -= slide / normal[static_cast<int>(w)];
+        const std::int32_t height = grid_.nearest(on_surface)[w];
+        GridPoint best{};
+        double least = limit;
+        bool found = false;
+        for (const std::int32_t h : {height, height - 1, height + 1}) {
+            q[w] = h;
+            const double c = cost(v, q, least);
+            if (!(c <= least)) continue;
+            least = c;
+            best = q;
+            found = true;
+        }
+        if (!found) return false;
+        mesh_.patch_of_move(v, grid_.point(best), patch_);
+        return error_.backward(patch_, limits_.backward * limit / limits_.forward) < kInfinity && take(v, best);
+    }
+
+    // Nothing near the vertex keeps the limit now: the least evil, until its neighbours have come onto the grid.
+    void take_least_evil(std::int32_t v) {
+        const GridPoint middle = grid_.nearest(mesh_.point(v));
+        GridPoint best = middle;
+        double least = kInfinity;
+        for (std::int32_t i = 0; i < 27; ++i) {
+            const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
+            double c = cost(v, q, least);
+            if (!(c < least)) continue;
+            const double backward = error_.backward(patch_, std::min(least, 3 * limits_.backward));
+            if (limits_.metric == Metric::max) c = std::max(c, backward);
+            if (!(c < least)) continue;
+            least = c;
+            best = q;
+        }
+        take(v, best);
+    }
+
+    CollapseMesh& mesh_;
+    CollapseError& error_;
+    const CollapseLimits& limits_;
+    const Grid& grid_;
+    Patch patch_;
+};
+
+}  // namespace
+
+GridPoint Grid::nearest(const Vec3& p) const {
+    const Vec3 q = frame.to_local(p) / exp2_eighths(step_code);
+    return {static_cast<std::int32_t>(std::floor(q.x + 0.5)), static_cast<std::int32_t>(std::floor(q.y + 0.5)),
+            static_cast<std::int32_t>(std::floor(q.z + 0.5))};
+}
+
+Vec3 Grid::point(const GridPoint& q) const {
+    const double s = exp2_eighths(step_code);  // as mesh_of (eval/mesh_part.h) has it
+    return frame.to_world({q[0] * s, q[1] * s, q[2] * s});
+}
+
+Grid Grid::around(const Box& box, double step) {
+    Grid grid{Frame::around(box), 0};
+    while (grid.step() > step && grid.step_code > kFinestCode) --grid.step_code;
+    return grid;
+}
+
+void snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
+                   const Task& task) {
+    Snapper snapper(mesh, error, limits, grid);
+    std::size_t left = 0;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) left += mesh.faces_at(static_cast<std::int32_t>(v)).empty() ? 0 : 1;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        const auto v = static_cast<std::int32_t>(i);
+        if (mesh.faces_at(v).empty()) continue;
+        task.check();
+        double limit = limits.forward;  // rms: an even share of what the sum may still rise
+        if (limits.metric == Metric::rms) {
+            limit = (limit * limit - error.mean_square()) * error.total_weight() / static_cast<double>(left);
+        }
+        snapper.snap(v, limit);
+        --left;
+    }
+    if (limits.metric != Metric::max) return;
+    error.assume_slope(0.5);
+    snapper.mend(limits.forward, task);
+}
+
+}  // namespace pfgeom
