@@ -1,0 +1,207 @@
+#include "pfgeom/compress/compress.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pfgeom/base/error.h"
+#include "pfgeom/base/parallel.h"
+#include "pfgeom/codec/codec.h"
+#include "pfgeom/compress/candidate.h"
+
+namespace pfgeom {
+namespace {
+
+// Boundary edges closer than this share of the tolerance are one seam.
+constexpr double kSeamShare = 1.0 / 16;
+// Up to so many faces the mesh candidate is cheap enough to be tried first, as the bytes to beat.
+constexpr std::size_t kQuickMesh = 40'000;
+// Fewer faces than this are not worth a hierarchy.
+constexpr std::size_t kLeastFaces = 100;
+// From so many islands on they are worked on side by side, one thread each.
+constexpr std::size_t kManyIslands = 8;
+
+class Compressor {
+  public:
+    Compressor(const TriangleMesh& input, const CompressOptions& options, const Task& task)
+        : input_(input), options_(options), task_(task) {}
+
+    Compressed run() {
+        check_options();
+        task_.report(0, "prepare");
+        check_mesh(input_);
+        const double size = diagonal(input_);
+        tolerance_ = options_.tolerance * (options_.relative ? size : 1.0);
+        prepared_ = prepare_mesh(input_, kSeamShare * tolerance_);
+        task_.report(0.02, "fit");
+        fit_islands();
+        assemble();
+        finish();
+        return std::move(result_);
+    }
+
+  private:
+    void check_options() const {
+        if (!(options_.tolerance > 0) || !std::isfinite(options_.tolerance)) {
+            throw InvalidInput("the tolerance must be a positive number");
+        }
+    }
+
+    Goal goal_of(const TriangleMesh& mesh, const Bvh& bvh, bool inward) const {
+        return {mesh, bvh, tolerance_, options_.metric, prepared_.diagonal, inward};
+    }
+
+    void fit_islands() {
+        const std::size_t n = prepared_.islands.size();
+        chosen_.resize(n);
+        if (n < kManyIslands) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const double at = static_cast<double>(i) / static_cast<double>(n);
+                const Task part = part_of(task_, 0.02 + 0.8 * at, 0.02 + 0.8 * (at + 1.0 / static_cast<double>(n)));
+                part.report(0, "fit");
+                chosen_[i] = fit_island(prepared_.islands[i], part);
+            }
+            return;
+        }
+        constexpr std::size_t kBatch = 64;
+        for (std::size_t from = 0; from < n; from += kBatch) {
+            const std::size_t count = std::min(kBatch, n - from);
+            parallel_chunks(count, 1, quiet(task_, task_.threads), [&](std::size_t i, std::size_t) {
+                chosen_[from + i] = fit_island(prepared_.islands[from + i], quiet(task_, 1));
+            });
+            task_.report(0.02 + 0.8 * static_cast<double>(from + count) / static_cast<double>(n), "fit");
+        }
+    }
+
+    // The cheapest candidate that holds; nothing: the island goes into the common mesh part.
+    std::optional<Outcome> fit_island(const Island& island, const Task& task) const {
+        if (!island.closed || !island.oriented || island.faces.size() < 8) return {};
+        const TriangleMesh mesh = extract_island(prepared_, island);
+        const Bvh bvh(mesh);
+        const Goal goal = goal_of(mesh, bvh, island.signed_volume < 0);
+        if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
+        if (mesh.faces.size() < kLeastFaces) return {};
+        std::optional<Outcome> plain;
+        if (mesh.faces.size() <= kQuickMesh) plain = try_mesh(goal, task);
+        std::optional<Outcome> best =
+            try_hierarchy(goal, plain ? plain->bytes : std::size_t{1} << 24, task);
+        if (plain && plain->holds && (!best || plain->bytes <= best->bytes)) best = std::move(plain);
+        return best;
+    }
+
+    bool is_function(std::size_t i) const { return chosen_[i] && chosen_[i]->candidate != "mesh"; }
+
+    // Objects in order of nesting (a cavity stands behind what it is taken out of), then one mesh part for the rest.
+    void assemble() {
+        const std::size_t n = prepared_.islands.size();
+        model_.diagonal = prepared_.diagonal;
+        std::vector<std::int32_t> object_of(n, -1);
+        std::vector<std::size_t> rest;
+        for (const std::size_t i : by_nesting()) {
+            if (!is_function(i)) rest.push_back(i);
+            else object_of[i] = add_function_object(i, object_of);
+        }
+        std::sort(rest.begin(), rest.end());
+        if (!rest.empty()) add_mesh_part(rest);
+    }
+
+    std::vector<std::size_t> by_nesting() const {
+        std::vector<std::size_t> depth(prepared_.islands.size(), 0), order(depth.size());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            order[i] = i;
+            for (std::int32_t p = prepared_.islands[i].parent; p >= 0; p = prepared_.islands[static_cast<std::size_t>(p)].parent) {
+                ++depth[i];
+            }
+        }
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
+        return order;
+    }
+
+    std::int32_t add_function_object(std::size_t i, const std::vector<std::int32_t>& object_of) {
+        Object object = chosen_[i]->object;
+        const Island& island = prepared_.islands[i];
+        const std::int32_t outer = island.parent >= 0 ? object_of[static_cast<std::size_t>(island.parent)] : -1;
+        const auto offset = static_cast<std::int32_t>(model_.functions.size());
+        auto& nodes = std::get<Solid>(object.shape).nodes;
+        if (island.signed_volume < 0 && outer >= 0) {
+            object.cavity_of = outer;  // then the solid is the hollow itself
+            nodes.pop_back();
+        }
+        for (SetNode& node : nodes) {
+            if (node.kind == SetNode::Kind::function) node.a += offset;
+        }
+        for (Function& f : chosen_[i]->functions) model_.functions.push_back(f);
+        model_.objects.push_back(std::move(object));
+        return static_cast<std::int32_t>(model_.objects.size()) - 1;
+    }
+
+    void add_mesh_part(const std::vector<std::size_t>& rest) {
+        if (rest.size() == 1 && chosen_[rest[0]]) {
+            model_.objects.push_back(chosen_[rest[0]]->object);
+            return;
+        }
+        Island together;
+        for (const std::size_t i : rest) {
+            const auto& faces = prepared_.islands[i].faces;
+            together.faces.insert(together.faces.end(), faces.begin(), faces.end());
+        }
+        std::sort(together.faces.begin(), together.faces.end());
+        const TriangleMesh mesh = extract_island(prepared_, together);
+        const Bvh bvh(mesh);
+        Outcome outcome = try_mesh(goal_of(mesh, bvh, false), part_of(task_, 0.82, 0.95));
+        model_.objects.push_back(std::move(outcome.object));
+    }
+
+    // The promise is measured on the decoded bytes, against the input as it was given; its figures change a few
+    // bytes of the header only.
+    void finish() {
+        model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
+        const Result<Model> first = decode(encode(model_));
+        if (!first) throw LimitExceeded("the compressed model asks for more work than its size allows");
+        const TriangleMesh mesh = to_mesh(*first, {}, quiet(task_, task_.threads));
+        task_.report(0.96, "measure");
+        DeviationOptions options;
+        if (options_.metric == Metric::max) options.certify_below = tolerance_;
+        result_.report.deviation = measure_deviation(prepared_.mesh, mesh, options, quiet(task_, task_.threads));
+        const Deviation& d = result_.report.deviation;
+        model_.promise.certified = d.certified;
+        model_.promise.bound_mesh = d.certified ? d.max_bound() : d.max();
+        model_.promise.rms = d.rms();
+        result_.bytes = encode(model_);
+        result_.model = *decode(result_.bytes);
+        fill_report(mesh);
+        task_.report(1, "done");
+    }
+
+    void fill_report(const TriangleMesh& mesh) {
+        CompressReport& r = result_.report;
+        r.defects = prepared_.defects;
+        r.input_vertices = static_cast<std::int64_t>(input_.vertices.size());
+        r.input_faces = static_cast<std::int64_t>(input_.faces.size());
+        r.raw_bytes = 12 * (r.input_vertices + r.input_faces);
+        r.mesh_faces = static_cast<std::int64_t>(mesh.faces.size());
+        for (std::size_t i = 0; i < chosen_.size(); ++i) {
+            IslandReport island;
+            island.faces = static_cast<std::int64_t>(prepared_.islands[i].faces.size());
+            island.candidate = chosen_[i] ? chosen_[i]->candidate : "mesh";
+            island.bytes = chosen_[i] ? static_cast<double>(chosen_[i]->bytes) : 0;
+            r.islands.push_back(island);
+        }
+    }
+
+    const TriangleMesh& input_;
+    const CompressOptions& options_;
+    const Task& task_;
+    double tolerance_ = 0;
+    PreparedMesh prepared_;
+    std::vector<std::optional<Outcome>> chosen_;
+    Model model_;
+    Compressed result_;
+};
+
+}  // namespace
+
+Compressed compress(const TriangleMesh& mesh, const CompressOptions& options, const Task& task) {
+    return Compressor(mesh, options, task).run();
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,21 @@
+#include "pfgeom/compress/mesh_code.h"
+
+namespace pfgeom {
+
+double chord_of(const Model& model, const Object& object) {
+    return model.diagonal * exp2_eighths(-2 * int{object.mesh_code});
+}
+
+std::uint8_t mesh_code_for(const Goal& goal, double chord) {
+    int code = 0;
+    while (code < 255 && goal.diagonal * exp2_eighths(-2 * code) > chord) ++code;
+    return static_cast<std::uint8_t>(code);
+}
+
+Solid single_function(bool inward) {
+    Solid solid{{{SetNode::Kind::function, 0, -1, -1}}};
+    if (inward) solid.nodes.push_back({SetNode::Kind::complement, 0, -1, -1});
+    return solid;
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,41 @@
+#include "pfgeom/base/error.h"
+#include "pfgeom/codec/codec.h"
+#include "pfgeom/compress/candidate.h"
+#include "pfgeom/compress/compress.h"
+
+namespace pfgeom {
+
+Model model_of(const Goal& goal, const Outcome& outcome) {
+    Model model;
+    model.functions = outcome.functions;
+    model.objects = {outcome.object};
+    model.diagonal = goal.diagonal;
+    model.promise = {goal.metric, goal.tolerance, goal.tolerance, false, goal.tolerance};
+    return model;
+}
+
+void prove(const Goal& goal, Outcome& outcome, bool certify, const Task& task) {
+    outcome.holds = false;
+    const std::vector<std::uint8_t> bytes = encode(model_of(goal, outcome));
+    outcome.bytes = bytes.size();
+    const Result<Model> decoded = decode(bytes);
+    if (!decoded) return;  // asks for more work than its size allows: no file may
+    outcome.functions = decoded->functions;
+    outcome.object = decoded->objects.front();
+    try {
+        outcome.mesh = to_mesh(*decoded, {}, task);
+    } catch (const LimitExceeded&) {
+        return;
+    }
+    if (outcome.mesh.faces.empty()) return;
+    DeviationOptions options;
+    options.bound = certify;
+    options.certify_below = certify && goal.metric == Metric::max ? goal.tolerance : 0;
+    const Bvh bvh(outcome.mesh);
+    outcome.deviation = measure_deviation(goal.mesh, goal.bvh, outcome.mesh, bvh, options, task);
+    const Deviation& d = outcome.deviation;
+    outcome.holds = goal.metric == Metric::rms ? d.rms() <= goal.tolerance
+                                               : (certify && d.certified ? d.max_bound() : d.max()) <= goal.tolerance;
+}
+
+}  // namespace pfgeom

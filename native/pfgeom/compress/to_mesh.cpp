@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+
+#include "pfgeom/base/error.h"
+#include "pfgeom/compress/compress.h"
+#include "pfgeom/compress/mesh_code.h"
+#include "pfgeom/eval/mesh_part.h"
+#include "pfgeom/eval/solid_field.h"
+#include "pfgeom/polygonize/polygonize.h"
+
+namespace pfgeom {
+namespace {
+
+constexpr int kLeastDepth = 3, kMostDepth = 10;
+constexpr int kLeastResolution = 8, kMostResolution = 4096;
+
+void check_options(const MeshOptions& options) {
+    if (options.tolerance && options.resolution) {
+        throw InvalidInput("give either a tolerance or a resolution, not both");
+    }
+    if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance))) {
+        throw InvalidInput("the tolerance must be a positive number");
+    }
+    if (options.resolution && (*options.resolution < kLeastResolution || *options.resolution > kMostResolution)) {
+        throw InvalidInput("the resolution must be from 8 to 4096");
+    }
+}
+
+// Depth at which cells of a cube of half edge `half` are no larger than `size`.
+int depth_for(double half, double size) {
+    int depth = kLeastDepth;
+    while (depth < 12 && std::ldexp(2 * half, -depth) > size) ++depth;
+    return depth;
+}
+
+PolygonizeOptions polygonize_options(const Model& model, const Object& object, const MeshOptions& options) {
+    PolygonizeOptions result;
+    result.min_depth = kLeastDepth;
+    result.max_depth = kMostDepth;
+    const double half = object.frame.half();
+    if (options.resolution) {
+        double largest = 0;
+        for (const Object& o : model.objects) largest = std::max(largest, o.frame.half());
+        result.min_depth = result.max_depth = depth_for(half, 2 * largest / *options.resolution);
+    } else {
+        result.tolerance = options.tolerance.value_or(chord_of(model, object)) / half;
+    }
+    return result;
+}
+
+TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options, const Task& task) {
+    if (std::holds_alternative<MeshPart>(object.shape)) return mesh_of(object);
+    const auto* solid = std::get_if<Solid>(&object.shape);
+    if (solid == nullptr) throw InvalidInput("sheets cannot be polygonized yet");
+    const bool complement = !solid->nodes.empty() && solid->nodes.back().kind == SetNode::Kind::complement;
+    Solid shape = *solid;
+    if (complement) shape.nodes.pop_back();  // a complement fills the cube; its surface is that of its operand
+    const SolidField field(model, shape);
+    TriangleMesh mesh = polygonize(field, polygonize_options(model, object, options), task);
+    for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
+    if (complement || object.cavity_of >= 0) {
+        for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
+    }
+    return mesh;
+}
+
+void append(TriangleMesh& all, const TriangleMesh& mesh) {
+    const auto offset = static_cast<std::int32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const Triangle& t : mesh.faces) all.faces.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+}
+
+TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
+    TriangleMesh copy = mesh;
+    for (Vec3& v : copy.vertices) v = s.apply(v);
+    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) {
+        for (Triangle& t : copy.faces) std::swap(t[1], t[2]);
+    }
+    return copy;
+}
+
+}  // namespace
+
+TriangleMesh to_mesh(const Model& model, const MeshOptions& options, const Task& task) {
+    check_options(options);
+    TriangleMesh all;
+    const auto count = static_cast<double>(model.objects.size());
+    for (std::size_t i = 0; i < model.objects.size(); ++i) {
+        const auto at = static_cast<double>(i);
+        const Object& object = model.objects[i];
+        const Task part = part_of(task, at / count, (at + 1) / count);
+        part.report(0, "polygonize");
+        const TriangleMesh mesh = mesh_in_place(model, object, options, part);
+        append(all, mesh);
+        for (const Similarity& s : object.instances) append(all, copy_of(mesh, s));
+    }
+    task.report(1, "polygonize");
+    return all;
+}
+
+FunctionCount count_functions(const Model& model) {
+    FunctionCount count;
+    std::vector<std::uint8_t> surface(model.functions.size()), used(model.functions.size());
+    for (const Object& object : model.objects) {
+        if (const auto* part = std::get_if<MeshPart>(&object.shape)) {
+            count.mesh_part_faces += static_cast<std::int64_t>(part->faces.size());
+        } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
+            surface[static_cast<std::size_t>(sheet->surface)] = used[static_cast<std::size_t>(sheet->trim)] = 1;
+        } else {
+            for (const SetNode& node : std::get<Solid>(object.shape).nodes) {
+                if (node.kind == SetNode::Kind::function) surface[static_cast<std::size_t>(node.a)] = 1;
+                if (node.kind == SetNode::Kind::decide) used[static_cast<std::size_t>(node.f)] = 1;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+        count.surface += surface[i];
+        count.separators += surface[i] == 0 && used[i] != 0 ? 1 : 0;
+        count.perturbations += static_cast<std::int64_t>(model.functions[i].perturbations.size());
+        for (const Level& level : model.functions[i].levels) {
+            count.perturbations += std::count_if(level.z.begin(), level.z.end(), [](std::int32_t z) { return z != 0; });
+        }
+    }
+    return count;
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,136 @@
+// The search for the coarsest quantiser that holds the tolerance: fits are steered by the error at their own samples,
+// and every candidate is then proved on its bytes, which calibrates the next estimate.
+#include <algorithm>
+#include <cmath>
+
+#include "pfgeom/base/reproducible.h"
+#include "pfgeom/compress/candidate.h"
+#include "pfgeom/compress/mesh_code.h"
+#include "pfgeom/fit/hierarchy.h"
+
+namespace pfgeom {
+namespace {
+
+constexpr int kMostFits = 8, kMostProofs = 4;
+
+std::size_t sample_count(const TriangleMesh& mesh) {
+    return std::clamp<std::size_t>(mesh.faces.size() * 20, 8000, 200'000);
+}
+
+// Finds the fineness at which the error is as wanted: error falls by about 6.7 % an eighth of an octave.
+class Secant {
+  public:
+    explicit Secant(double fineness) : fineness_(fineness) {}
+    double fineness() const { return fineness_; }
+
+    void step(double error, double wanted) {
+        const double log_error = reproducible_log2(error);
+        if (seen_ && std::abs(fineness_ - last_fineness_) > 0.2) {
+            slope_ = std::clamp((last_error_ - log_error) / (fineness_ - last_fineness_), 0.04, 0.2);
+        }
+        seen_ = true;
+        last_fineness_ = fineness_;
+        last_error_ = log_error;
+        fineness_ += std::clamp((log_error - reproducible_log2(wanted)) / slope_, -24.0, 24.0);
+    }
+
+  private:
+    double fineness_, last_fineness_ = 0, last_error_ = 0, slope_ = 0.094;
+    bool seen_ = false;
+};
+
+class Search {
+  public:
+    Search(const Goal& goal, std::size_t most_bytes, const Task& task)
+        : goal_(goal), task_(task), target_(goal.mesh, sample_count(goal.mesh)),
+          tolerance_(goal.tolerance / target_.frame.half()) {
+        options_.most_bits = 8.0 * static_cast<double>(most_bytes);
+        options_.last_thin = 7;
+    }
+
+    std::optional<Outcome> run() { return goal_.metric == Metric::rms ? search_rms() : search_max(); }
+
+  private:
+    // Quantiser of level 7 in eighths of an octave below the cube's unit, as a real number: the integer part is the
+    // step, the fraction raises lambda.
+    void set_fineness(double fineness) {
+        const double code = std::ceil(std::clamp(fineness, 8.0, 250.0));
+        options_.step_code = static_cast<int>(code);
+        // One eighth of an octave of the step changes the rms by 6.7 %, and so does 1.46 times the lambda (igea).
+        options_.lambda = base_lambda_ * (1 + 0.46 * (code - std::clamp(fineness, 8.0, 250.0)));
+    }
+
+    std::optional<Outcome> search_rms() {
+        constexpr double kAim = 0.987, kBand = 0.015;
+        Secant secant(-8 * reproducible_log2(tolerance_ / 0.3));
+        double bias = 1.015;  // measured rms over that of the fit's own samples: the mesh adds its chords
+        std::optional<Outcome> best;
+        int proofs = 0;
+        for (int fits = 0; fits < kMostFits && proofs < kMostProofs; ++fits) {
+            set_fineness(secant.fineness());
+            const HierarchyFit fit = fit_hierarchy(target_, options_, task_);
+            if (fit.function.levels.empty()) break;
+            const double expected = fit.rms * bias / tolerance_;
+            if (std::abs(expected - kAim) <= kBand || fits + 1 == kMostFits) {
+                const Outcome outcome = prove_fit(fit, 0.5 * goal_.tolerance);
+                ++proofs;
+                if (outcome.mesh.faces.empty()) break;
+                const double reached = outcome.deviation.rms() / goal_.tolerance;
+                if (outcome.holds && (!best || outcome.bytes < best->bytes)) best = outcome;
+                if (reached > 3 || (outcome.holds && reached > kAim - 2 * kBand)) break;
+                bias = reached * tolerance_ / fit.rms;
+            }
+            secant.step(fit.rms, kAim * tolerance_ / bias);
+        }
+        return best;
+    }
+
+    std::optional<Outcome> search_max() {
+        double share = 1;
+        base_lambda_ = 0.2;
+        options_.last_level = 10;
+        std::optional<Outcome> best;
+        for (int fits = 0; fits < kMostFits; ++fits) {
+            set_fineness(-8 * reproducible_log2(0.5 * share * tolerance_));
+            options_.dead_zone = 0.5 * share * tolerance_;
+            const HierarchyFit fit = fit_hierarchy(target_, options_, task_);
+            if (fit.function.levels.empty()) break;
+            double worst = fit.max / tolerance_;
+            if (worst < 1.1) {
+                const Outcome outcome = prove_fit(fit, 0.25 * goal_.tolerance);
+                if (outcome.holds) return outcome;
+                if (outcome.mesh.faces.empty()) break;
+                worst = std::max(worst, outcome.deviation.max() / goal_.tolerance);
+            }
+            if (worst > 30) break;
+            share *= std::clamp(0.95 / worst, 0.6, 0.92);
+        }
+        return best;
+    }
+
+    Outcome prove_fit(const HierarchyFit& fit, double chord) {
+        Outcome outcome;
+        outcome.candidate = "hierarchy";
+        outcome.functions = {fit.function};
+        outcome.object.frame = target_.frame;
+        outcome.object.shape = single_function(goal_.inward);
+        outcome.object.mesh_code = mesh_code_for(goal_, chord);
+        prove(goal_, outcome, goal_.metric == Metric::max, task_);
+        return outcome;
+    }
+
+    const Goal& goal_;
+    const Task& task_;
+    FitTarget target_;
+    double tolerance_;  // in the cube's units
+    double base_lambda_ = 0.7;
+    HierarchyOptions options_;
+};
+
+}  // namespace
+
+std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task) {
+    return Search(goal, most_bytes, task).run();
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,133 @@
+#include "pfgeom/eval/model_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "pfgeom/eval/mesh_part.h"
+#include "pfgeom/eval/solid_field.h"
+#include "pfgeom/mesh/bvh.h"
+
+namespace pfgeom {
+namespace {
+
+// An inside-out solid's root is a complement; what it encloses counts as inside all the same.
+Solid without_outer_complement(const Solid& solid) {
+    Solid inner = solid;
+    if (!inner.nodes.empty() && inner.nodes.back().kind == SetNode::Kind::complement &&
+        inner.nodes.back().a == static_cast<std::int32_t>(inner.nodes.size()) - 2) {
+        inner.nodes.pop_back();
+    }
+    return inner;
+}
+
+}  // namespace
+
+// One object with its copies; value and gradient are in the world's units.
+struct ModelField::Part {
+    Frame frame;
+    std::vector<Similarity> copies;  // besides the one in place
+    std::int32_t cavity_of = -1;
+    std::optional<SolidField> solid;
+    std::optional<Bvh> bvh;
+    Box box;
+
+    Part(const Model& model, const Object& object)
+        : frame(object.frame), copies(object.instances), cavity_of(object.cavity_of) {
+        if (const auto* s = std::get_if<Solid>(&object.shape)) {
+            solid.emplace(model, without_outer_complement(*s));
+            const Vec3 h{frame.half(), frame.half(), frame.half()};
+            box = {frame.centre() - h, frame.centre() + h};
+        } else if (std::holds_alternative<MeshPart>(object.shape)) {
+            bvh.emplace(mesh_of(object));
+            box = bvh->bounds();
+        }
+    }
+
+    Jet in_place(const Vec3& p) const {
+        if (bvh) return distance_jet(p);
+        if (!solid) return {-1e30, {}};
+        const double half = frame.half();
+        const Vec3 local = frame.to_local(p);
+        Jet jet;
+        jet.value = solid->value_and_gradient(local, jet.gradient) * half;
+        // Outside of its cube a solid is empty.
+        const double beyond = std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) - 1;
+        if (beyond > 0) jet.value = std::min(jet.value, -beyond * half);
+        return jet;
+    }
+
+    Jet distance_jet(const Vec3& p) const {
+        const ClosestPoint c = bvh->closest(p);
+        const double d = std::sqrt(c.squared_distance);
+        const bool inside = std::abs(bvh->winding_number(p)) > 0.5;
+        const Vec3 away = normalized(p - c.point);
+        return inside ? Jet{d, away} : Jet{-d, -away};
+    }
+
+    // Union of the copies.
+    Jet jet(const Vec3& p) const {
+        Jet best = in_place(p);
+        for (const Similarity& s : copies) {
+            Jet j = in_place(s.apply_inverse(p));
+            j.value *= s.scale;
+            j.gradient = s.turn(j.gradient);
+            if (j.value > best.value) best = j;
+        }
+        return best;
+    }
+};
+
+ModelField::ModelField(const Model& model) {
+    for (const Object& object : model.objects) parts_.push_back(std::make_unique<Part>(model, object));
+}
+ModelField::~ModelField() = default;
+ModelField::ModelField(ModelField&&) noexcept = default;
+ModelField& ModelField::operator=(ModelField&&) noexcept = default;
+
+namespace {
+
+template <class Parts>
+Jet union_of(const Parts& parts, const Vec3& p) {
+    std::vector<Jet> jets;
+    jets.reserve(parts.size());
+    for (const auto& part : parts) jets.push_back(part->jet(p));
+    // Cavities stand behind what they are taken out of.
+    for (std::size_t i = parts.size(); i-- > 0;) {
+        if (parts[i]->cavity_of < 0) continue;
+        Jet& outer = jets[static_cast<std::size_t>(parts[i]->cavity_of)];
+        if (-jets[i].value < outer.value) outer = {-jets[i].value, -jets[i].gradient};
+    }
+    Jet best{-1e30, {}};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i]->cavity_of < 0 && jets[i].value > best.value) best = jets[i];
+    }
+    return best;
+}
+
+}  // namespace
+
+double ModelField::value(const Vec3& world) const {
+    return union_of(parts_, world).value;
+}
+
+Vec3 ModelField::gradient(const Vec3& world) const {
+    return union_of(parts_, world).gradient;
+}
+
+Box ModelField::bounds() const {
+    Box all;
+    for (const auto& part : parts_) {
+        all.grow(part->box);
+        for (const Similarity& s : part->copies) {
+            for (int corner = 0; corner < 8; ++corner) {
+                all.grow(s.apply({(corner & 1) != 0 ? part->box.hi.x : part->box.lo.x,
+                                  (corner & 2) != 0 ? part->box.hi.y : part->box.lo.y,
+                                  (corner & 4) != 0 ? part->box.hi.z : part->box.lo.z}));
+            }
+        }
+    }
+    return all;
+}
+
+}  // namespace pfgeom

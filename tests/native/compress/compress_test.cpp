@@ -1,0 +1,143 @@
+#include "pfgeom/compress/compress.h"
+
+#include "pfgeom/codec/codec.h"
+#include "pfgeom/eval/model_field.h"
+#include "pfgeom/mesh/mesh.h"
+
+#include "shapes.h"
+#include <gtest/gtest.h>
+
+namespace pfgeom {
+namespace {
+
+Compressed compressed(const TriangleMesh& mesh, double tolerance, Metric metric = Metric::max, int threads = 0) {
+    Task task;
+    task.threads = threads;
+    CompressOptions options;
+    options.tolerance = tolerance;
+    options.metric = metric;
+    return compress(mesh, options, task);
+}
+
+struct Shape {
+    const char* name;
+    TriangleMesh mesh;
+};
+
+std::vector<Shape> any_shapes() {
+    return {{"sphere", shapes::sphere(3)},
+            {"torus", shapes::torus(1, 0.4, 48, 24)},
+            {"bumpy", shapes::bumpy_sphere(3)},
+            {"cube", shapes::cube()},
+            {"open cone", shapes::open_cone()},
+            {"moebius", shapes::moebius()},
+            {"klein", shapes::klein_bottle()},
+            {"fan", shapes::edge_fan()},
+            {"slivers", shapes::sliver_fan()},
+            {"soup", shapes::soup(shapes::torus())},
+            {"inside out", shapes::flipped(shapes::sphere(3))},
+            {"misoriented", shapes::misoriented_sphere()},
+            {"cracked", shapes::cracked_cube()},
+            {"shells", shapes::nested_shells()},
+            {"scene", shapes::scene_of_islands(12, 2)}};
+}
+
+// The promise is checked from the bytes alone: a mesh that decoding gives, against the input.
+void expect_promise(const Shape& shape, double tolerance, Metric metric) {
+    SCOPED_TRACE(shape.name);
+    const Compressed c = compressed(shape.mesh, tolerance, metric);
+    const Result<Model> model = decode(c.bytes);
+    ASSERT_TRUE(model);
+    const Deviation d = measure_deviation(shape.mesh, to_mesh(*model));
+    const double limit = tolerance * diagonal(shape.mesh);
+    EXPECT_LE(metric == Metric::max ? d.max() : d.rms(), limit * (1 + 1e-9));
+    EXPECT_LE(d.max(), model->promise.bound_mesh * (1 + 1e-6)) << "the stored bound is a bound";
+    EXPECT_NEAR(model->promise.tolerance, limit, 1e-4 * limit);
+}
+
+TEST(Compress, HoldsItsPromiseForAnyShape) {
+    for (const Shape& shape : any_shapes()) {
+        expect_promise(shape, 1e-2, Metric::max);
+        expect_promise(shape, 1e-3, Metric::max);
+        expect_promise(shape, 2e-3, Metric::rms);
+    }
+}
+
+TEST(Compress, ASphereIsOneFunctionAndAFewBytes) {
+    const Compressed c = compressed(shapes::sphere(4), 5e-3);
+    const FunctionCount n = count_functions(c.model);
+    EXPECT_EQ(n.surface, 1);
+    EXPECT_EQ(n.perturbations, 0);
+    EXPECT_EQ(n.mesh_part_faces, 0);
+    EXPECT_LT(c.bytes.size(), 80U);
+}
+
+TEST(Compress, SmoothFreeFormsBecomeAHierarchy) {
+    const Compressed c = compressed(shapes::bumpy_sphere(5), 1e-3, Metric::rms);
+    EXPECT_EQ(c.report.islands.at(0).candidate, "hierarchy");
+    EXPECT_GT(count_functions(c.model).perturbations, 10);
+    const TriangleMesh mesh = to_mesh(c.model);
+    const PreparedMesh prepared = prepare_mesh(mesh, 0);
+    ASSERT_EQ(prepared.islands.size(), 1U);
+    EXPECT_TRUE(prepared.islands[0].closed && prepared.islands[0].manifold && prepared.islands[0].oriented);
+}
+
+TEST(Compress, BytesDoNotDependOnThreads) {
+    for (const Shape& shape : {Shape{"bumpy", shapes::bumpy_sphere(4)}, Shape{"scene", shapes::scene_of_islands(12, 2)}}) {
+        SCOPED_TRACE(shape.name);
+        EXPECT_EQ(compressed(shape.mesh, 2e-3, Metric::max, 1).bytes, compressed(shape.mesh, 2e-3, Metric::max, 2).bytes);
+    }
+}
+
+TEST(Compress, CavitiesStayHollowAndOrientationStays) {
+    const TriangleMesh input = shapes::nested_shells(3, 3);
+    const Compressed c = compressed(input, 1e-3);
+    const ModelField field(c.model);
+    const PreparedMesh before = prepare_mesh(input, 0), after = prepare_mesh(to_mesh(c.model), 0);
+    ASSERT_EQ(before.islands.size(), after.islands.size());
+    double volume = 0, volume_after = 0;
+    for (const Island& i : before.islands) volume += i.signed_volume;
+    for (const Island& i : after.islands) volume_after += i.signed_volume;
+    EXPECT_NEAR(volume_after, volume, 0.02 * std::abs(volume));
+    const Bvh bvh(input);
+    int decided = 0;
+    for (const Vec3& p : sample_surface(shapes::sphere(2, 0.77 * bounds(input).hi.x), 200, 3).points) {
+        if (bvh.closest(p).squared_distance < 1e-3) continue;
+        ++decided;
+        EXPECT_EQ(field.contains(p), bvh.winding_number(p) > 0.5);
+    }
+    EXPECT_GT(decided, 20);
+}
+
+TEST(Compress, RefusesBadOptionsAndMeshes) {
+    const TriangleMesh cube = shapes::cube();
+    EXPECT_THROW(compressed(cube, 0), InvalidInput);
+    EXPECT_THROW(compressed(cube, -1), InvalidInput);
+    EXPECT_THROW(compressed(cube, std::numeric_limits<double>::quiet_NaN()), InvalidInput);
+    EXPECT_THROW(compressed({}, 1e-3), InvalidInput);
+    TriangleMesh bad = cube;
+    bad.vertices[3].y = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(compressed(bad, 1e-3), InvalidInput);
+}
+
+TEST(Compress, CanBeCancelled) {
+    CancelToken token;
+    token.cancel();
+    Task task;
+    task.cancel = &token;
+    EXPECT_THROW(compress(shapes::sphere(3), {}, task), Cancelled);
+}
+
+TEST(ToMesh, ResolutionAndToleranceSteerTheMesh) {
+    const Compressed c = compressed(shapes::torus(1, 0.4, 64, 32), 1e-3, Metric::rms);
+    if (count_functions(c.model).surface == 0) GTEST_SKIP() << "the torus became a mesh part";
+    const std::size_t coarse = to_mesh(c.model, {{}, 16}).faces.size(), fine = to_mesh(c.model, {{}, 64}).faces.size();
+    EXPECT_LT(4 * coarse, fine);
+    EXPECT_LT(to_mesh(c.model, {1e-2, {}}).faces.size(), to_mesh(c.model, {1e-4, {}}).faces.size());
+    EXPECT_THROW(to_mesh(c.model, {1e-2, 32}), InvalidInput);
+    EXPECT_THROW(to_mesh(c.model, {{}, 4}), InvalidInput);
+    EXPECT_THROW(to_mesh(c.model, {-1.0, {}}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace pfgeom
