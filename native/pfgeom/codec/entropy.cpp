@@ -1,6 +1,7 @@
 #include "pfgeom/codec/entropy.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -10,15 +11,11 @@ constexpr std::uint32_t kTop = 1U << 24;  // the range is kept at or above this
 }  // namespace
 
 EntropyCoder::EntropyCoder(std::span<const std::uint8_t> bytes) : decoding_(true), bytes_(bytes) {
-    for (int i = 0; i < 4; ++i) code_ = (code_ << 8) | next_byte();
+    while (position_ < kLookAhead) code_ = (code_ << 8) | byte_at(position_++);
 }
 
-std::uint8_t EntropyCoder::next_byte() {
-    const std::size_t at = position_++;
-    return at < bytes_.size() ? bytes_[at] : std::uint8_t{0};
-}
-
-// Moves the top byte of low_ out. It is held back while a later carry could still change it.
+// Moves the top byte of low_ out. It is held back while a later carry could still change it. (No carry can
+// leave the first byte: low + range starts below 2^32 and never grows.)
 void EntropyCoder::shift_low() {
     const auto carry = static_cast<std::uint8_t>(low_ >> 32);
     if (carry != 0 || low_ < 0xFF000000U || pending_ == 0) {
@@ -35,19 +32,23 @@ void EntropyCoder::shift_low() {
 
 int EntropyCoder::code(int bit, Probability p1) {
     const Probability p = std::clamp(p1, kFloor, 65536 - kFloor);
-    const std::uint32_t bound = (range_ >> 16) * p;
+    const auto bound = static_cast<std::uint32_t>((std::uint64_t{range_} * p) >> 16);
     if (decoding_) bit = code_ < bound ? 1 : 0;
     if (bit != 0) {
         range_ = bound;
     } else {
         range_ -= bound;
-        if (decoding_) code_ -= bound;
-        else low_ += bound;
+        if (decoding_)
+            code_ -= bound;
+        else
+            low_ += bound;
     }
     while (range_ < kTop) {
         range_ <<= 8;
-        if (decoding_) code_ = (code_ << 8) | next_byte();
-        else shift_low();
+        if (decoding_)
+            code_ = (code_ << 8) | byte_at(position_++);
+        else
+            shift_low();
     }
     return bit;
 }
@@ -60,20 +61,35 @@ std::uint32_t EntropyCoder::code_raw(std::uint32_t value, int count) {
     return result;
 }
 
-std::vector<std::uint8_t> EntropyCoder::finish() {
-    // The value in [low, low + range) with the most trailing zero bits: its zero bytes need not be written.
-    for (int k = 32; k >= 0; k -= 8) {
-        const std::uint64_t mask = (std::uint64_t{1} << k) - 1;
-        const std::uint64_t value = (low_ + mask) & ~mask;
-        if (value - low_ < range_) {
-            low_ = value;
-            break;
-        }
+// From low to the value in [low, low + range) that ends in the most zero bytes (the lowest of those).
+std::uint32_t EntropyCoder::distance_to_tail(std::uint32_t low, std::uint32_t range) {
+    for (const std::uint32_t mask : {0xFFFFFFFFU, 0x00FFFFFFU, 0x0000FFFFU, 0x000000FFU}) {
+        const std::uint32_t distance = (0U - low) & mask;
+        if (distance < range) return distance;
     }
+    return 0;
+}
+
+std::vector<std::uint8_t> EntropyCoder::finish() {
+    low_ += distance_to_tail(static_cast<std::uint32_t>(low_), range_);
     for (int i = 0; i < 5; ++i) shift_low();
-    // A decoder looks 4 bytes ahead, so at most 4 may go without looking like a truncated stream.
-    for (int i = 0; i < 4 && !output_.empty() && output_.back() == 0; ++i) output_.pop_back();
+    // A decoder looks 4 bytes ahead, so as many may go without looking like a truncated stream.
+    for (std::size_t i = 0; i < kLookAhead && !output_.empty() && output_.back() == 0; ++i)
+        output_.pop_back();
     return std::move(output_);
+}
+
+bool EntropyCoder::ended_cleanly() const {
+    if (exhausted() || position_ < bytes_.size()) return false;
+    // finish() stops leaving out zero bytes only at a byte that is not zero, or after four.
+    const bool shortest = position_ == bytes_.size() + kLookAhead || bytes_.back() != 0;
+    std::uint32_t value = 0;  // the last 32 bits of the stream's value: the encoder's low_ plus code_
+    for (std::size_t i = kLookAhead; i > 0; --i) value = (value << 8) | byte_at(position_ - i);
+    return shortest && code_ == distance_to_tail(value - code_, range_);
+}
+
+double EntropyCoder::bits_so_far() const {
+    return 8.0 * static_cast<double>(bytes_so_far()) + 32 - std::log2(static_cast<double>(range_));
 }
 
 }  // namespace pfgeom

@@ -22,10 +22,19 @@ double reproducible_exp(double x) {
     return sum;
 }
 
+// Learning of a slot: the step is 1/(count + 1.5), not below 1/kSlowest (of 100-1000 tried, 250 is best on
+// coefficients of igea and armadillo at rms 2e-4, within 0.2 %).
+constexpr std::uint32_t kSlowest = 250;
+// From here on the learning rate of weights has reached its end.
+constexpr std::uint32_t kManyBits = 9830;
+
 struct Tables {
-    // squash at steps of 4/kStretchOne, and stretch at p = (i + 1/2) / 4096.
+    // squash at steps of 4/kStretchOne; stretch and the cost of a one in bits at p = (i + 1/2) / 4096.
     std::array<std::uint16_t, 2 * kStretchMax / 4 + 1> squash{};
     std::array<std::int16_t, 4096> stretch{};
+    std::array<double, 4096> cost{};
+    // By the bits that a slot has seen: step of learning, of 65536, and trust in it, n / (n + 0.4) of 256.
+    std::array<std::int32_t, kSlowest + 1> step{}, confidence{};
 
     Tables() {
         for (std::size_t i = 0; i < squash.size(); ++i) {
@@ -38,6 +47,11 @@ struct Tables {
             const int p = static_cast<int>(i) * 16 + 8;
             while (at < kStretchMax && squash[static_cast<std::size_t>(at + kStretchMax) / 4] < p) at += 4;
             stretch[i] = static_cast<std::int16_t>(at);
+            cost[i] = 12 - std::log2(static_cast<double>(i) + 0.5);  // statistics only
+        }
+        for (int n = 0; n <= static_cast<int>(kSlowest); ++n) {
+            step[static_cast<std::size_t>(n)] = 131072 / std::min(2 * n + 3, 2 * static_cast<int>(kSlowest));
+            confidence[static_cast<std::size_t>(n)] = n * 2560 / (n * 10 + 4);
         }
     }
 };
@@ -47,14 +61,17 @@ const Tables& tables() {
     return kTables;
 }
 
-// Learning of a slot: the step is 1/(count + 1.5), not below 1/kSlowest (of 100-1000 tried, 250 is best on
-// coefficients of igea and armadillo at rms 2e-4, within 0.2 %).
-constexpr std::uint32_t kSlowest = 250;
-// Trust in a slot that has seen `count` bits: count / (count + 0.4).
-constexpr int confidence(std::uint32_t count) {
-    const std::uint32_t n = std::min(count, 255U);
-    return static_cast<int>(n * 2560 / (n * 10 + 4));  // of 256
+// What the mixer may remember after so many bytes of stream: a small file cannot make a reader allocate much.
+// A slot takes up to 64 bytes (a table two thirds empty that is being copied), a weight set up to 400,
+// together at most 6 KiB a byte. Real streams need 5-25 slots a byte.
+constexpr std::size_t slots_allowed(std::size_t bytes) {
+    return 4096 + 64 * bytes;
 }
+constexpr std::size_t sets_allowed(std::size_t bytes) {
+    return 512 + 4 * bytes;
+}
+// A key beyond what is allowed shares one entry with all others of its kind and place.
+constexpr std::uint64_t kShared = std::uint64_t{1} << 62;
 
 }  // namespace
 
@@ -68,98 +85,115 @@ Probability squash(int stretched) {
 }
 
 int log2_sixteenths(std::uint32_t x) {
-    const std::uint32_t v = std::min(x, 0xFFFFFFFFU - 16) + 16;
+    const std::uint64_t v = std::uint64_t{x} + 16;
     const int e = static_cast<int>(std::bit_width(v)) - 1;  // v in [2^e, 2^(e+1))
-    const std::uint32_t mantissa = static_cast<std::uint32_t>((std::uint64_t{v} << 4 >> e) - 16);
-    return (e - 4) * 16 + static_cast<int>(mantissa);
+    return (e - 4) * 16 + static_cast<int>((v << 4 >> e) - 16);
 }
 
-ContextMixer::Weights& ContextMixer::weights(std::uint64_t key, std::size_t contexts, std::size_t inputs) {
-    Weights& set = weight_sets_[key];
-    if (set.w.empty()) {
-        set.w.assign(inputs, 0);
-        std::fill_n(set.w.begin(), contexts, 65536 / 5);
+ContextMixer::Slot& ContextMixer::slot(std::uint64_t key, std::size_t allowed) {
+    if (Slot* known = slots_.find(key)) return *known;
+    return slots_[slots_.size() < allowed ? key : kShared | (key >> 32)];
+}
+
+ContextMixer::WeightSet& ContextMixer::weight_set(std::uint64_t key, std::size_t allowed,
+                                                  std::size_t contexts, std::size_t inputs) {
+    if (WeightSet* known = sets_.find(key)) return *known;
+    WeightSet& set = sets_[sets_.size() < allowed ? key : kShared | (key >> 16)];
+    if (!set.made) {
+        set = {static_cast<std::uint32_t>(weights_.size()), 0, true};
+        weights_.resize(weights_.size() + contexts, 65536 / 5);
+        weights_.resize(weights_.size() + inputs - contexts, 0);
     }
     return set;
 }
 
-void ContextMixer::learn(Weights& set, std::span<const int> inputs, int dot, int bit) {
+int ContextMixer::dot(const WeightSet& set, std::span<const int> inputs) const {
+    std::int64_t sum = 0;
+    const std::int32_t* w = weights_.data() + set.first;
+    for (std::size_t i = 0; i < inputs.size(); ++i) sum += std::int64_t{w[i]} * inputs[i];
+    return static_cast<int>(std::clamp<std::int64_t>(sum / 65536, -kStretchMax, kStretchMax));
+}
+
+void ContextMixer::learn(WeightSet& set, std::span<const int> inputs, int dot, int bit) {
     // w += rate * (bit - p) * input, rate = 0.005 + 0.15 / (count + 10)
     const std::int64_t error = (bit != 0 ? 65536 : 0) - static_cast<std::int64_t>(squash(dot));
     const std::int64_t rate = 328 + 9830 / (static_cast<std::int64_t>(set.count) + 10);  // of 65536
+    std::int32_t* w = weights_.data() + set.first;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const std::int64_t step = error * rate * inputs[i] / (std::int64_t{65536} * kStretchOne);
-        set.w[i] = static_cast<std::int32_t>(std::clamp<std::int64_t>(set.w[i] + step, -(1 << 22), 1 << 22));
+        w[i] = static_cast<std::int32_t>(std::clamp<std::int64_t>(w[i] + step, -(1 << 22), 1 << 22));
     }
-    ++set.count;
+    if (set.count < kManyBits) ++set.count;
 }
 
-int ContextMixer::code(EntropyCoder& coder, int bit, const Where& where, std::span<const std::uint32_t> contexts,
-                       std::span<const int> features) {
-    const std::size_t n = contexts.size() + features.size();
-    active_.resize(contexts.size());
-    inputs_.resize(n);
+int ContextMixer::code(EntropyCoder& coder, int bit, const Where& where,
+                       std::span<const std::uint32_t> contexts, std::span<const int> features) {
+    const Tables& table = tables();
+    std::array<Slot*, kMostContexts> slots;
+    std::array<int, kMostInputs> all;
+    const std::span<int> inputs(all.data(), contexts.size() + features.size());
+    const std::size_t bytes = coder.bytes_so_far(), may_have = slots_allowed(bytes);
+    slots_.reserve_extra(contexts.size());
     for (std::size_t i = 0; i < contexts.size(); ++i) {
-        const std::uint64_t key = (std::uint64_t{where.kind} << 40) | (std::uint64_t{i} << 32) | contexts[i];
-        Slot& slot = slots_[key];
-        active_[i] = &slot;
-        inputs_[i] = stretch(slot.p >> 16) * confidence(slot.count) / 256;
+        slots[i] =
+            &slot((std::uint64_t{where.kind} << 40) | (std::uint64_t{i} << 32) | contexts[i], may_have);
+        all[i] = table.stretch[slots[i]->p >> 20] * table.confidence[slots[i]->count] / 256;
     }
-    std::copy(features.begin(), features.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(contexts.size()));
+    std::copy(features.begin(), features.end(),
+              inputs.begin() + static_cast<std::ptrdiff_t>(contexts.size()));
 
-    const std::array<std::uint64_t, 2> keys{(std::uint64_t{where.kind} << 32) | where.weight_set_a,
-                                            (std::uint64_t{where.kind} << 32) | (1U << 16) | where.weight_set_b};
-    std::array<Weights*, 2> sets{};
-    std::array<int, 2> dots{};
-    for (std::size_t s = 0; s < 2; ++s) {
-        sets[s] = &weights(keys[s], contexts.size(), n);
-        std::int64_t sum = 0;
-        for (std::size_t i = 0; i < n; ++i) sum += std::int64_t{sets[s]->w[i]} * inputs_[i];
-        dots[s] = static_cast<int>(std::clamp<std::int64_t>(sum / 65536, -kStretchMax, kStretchMax));
-    }
-    const Probability p = squash((dots[0] + dots[1]) / 2);
+    sets_.reserve_extra(2);
+    const std::uint64_t key = std::uint64_t{where.kind} << 17;
+    WeightSet& a = weight_set(key | where.weight_set_a, sets_allowed(bytes), contexts.size(), inputs.size());
+    WeightSet& b =
+        weight_set(key | 1U << 16 | where.weight_set_b, sets_allowed(bytes), contexts.size(), inputs.size());
+    const int dot_a = dot(a, inputs), dot_b = dot(b, inputs);
+    const Probability p = squash((dot_a + dot_b) / 2);
     bit = coder.code(bit, p);
 
     if (spent_.size() <= where.kind) spent_.resize(where.kind + 1);
-    const double q = static_cast<double>(std::clamp(p, EntropyCoder::kFloor, 65536 - EntropyCoder::kFloor)) / 65536;
-    spent_[where.kind] -= std::log2(bit != 0 ? q : 1 - q);
-    for (std::size_t s = 0; s < 2; ++s) learn(*sets[s], inputs_, dots[s], bit);
-    for (Slot* slot : active_) {
-        const std::uint32_t target = bit != 0 ? 0xFFFFFFFFU : 0U;
-        const std::uint32_t divisor = std::min(2 * slot->count + 3, 2 * kSlowest);  // twice count + 1.5
-        const std::int64_t step = (std::int64_t{target} - slot->p) * 2 / divisor;
-        slot->p = static_cast<std::uint32_t>(std::int64_t{slot->p} + step);
-        ++slot->count;
+    const Probability q =
+        std::clamp(bit != 0 ? p : 65536 - p, EntropyCoder::kFloor, 65536 - EntropyCoder::kFloor);
+    spent_[where.kind] += table.cost[q >> 4];
+    learn(a, inputs, dot_a, bit);
+    learn(b, inputs, dot_b, bit);
+    for (Slot* s : std::span(slots.data(), contexts.size())) {
+        const std::int64_t missing = (bit != 0 ? std::int64_t{0xFFFFFFFF} : 0) - s->p;
+        s->p = static_cast<std::uint32_t>(s->p + ((missing * table.step[s->count]) >> 16));
+        if (s->count < kSlowest) ++s->count;
     }
     return bit;
 }
 
 std::uint32_t ContextMixer::code_uint(EntropyCoder& coder, std::uint32_t value, std::uint32_t kind,
                                       std::uint32_t context) {
-    const std::uint64_t v = std::uint64_t{value} + 1;  // Exp-Golomb: exponent, then mantissa
-    const int bits = static_cast<int>(std::bit_width(v)) - 1;
+    // Exp-Golomb of value + 1: the exponent in unary, then the mantissa.
+    const std::uint64_t v = std::uint64_t{value} + 1;
+    const int exponent = static_cast<int>(std::bit_width(v)) - 1;
     int e = 0;
-    for (; e < 31; ++e) {
-        const std::array<std::uint32_t, 2> ctx{static_cast<std::uint32_t>(e), context * 32 + static_cast<std::uint32_t>(e)};
-        if (code(coder, bits > e ? 1 : 0, {kind, 0, 0}, ctx) == 0) break;
+    for (; e < 32; ++e) {
+        const auto place = static_cast<std::uint32_t>(e);
+        const std::array<std::uint32_t, 2> contexts{place, context * 32 + place};
+        if (code(coder, exponent > e ? 1 : 0, {kind, 0, 0}, contexts) == 0) break;
     }
-    std::uint64_t result = 1;
+    if (e == 32) return 0xFFFFFFFFU;  // the only value there
+    std::uint32_t result = 1;
     for (int i = e - 1; i >= 0; --i) {
         const int in = static_cast<int>((v >> i) & 1U);
         const bool top = i >= e - 3;  // lower bits are as good as random
-        const std::array<std::uint32_t, 1> ctx{static_cast<std::uint32_t>(e) * 16 + static_cast<std::uint32_t>(top ? (result & 15U) + 1 : 0)};
-        const int out = top ? code(coder, in, {kind + 1, 0, 0}, ctx) : coder.code(in, 32768);
-        result = (result << 1) | static_cast<std::uint64_t>(out);
+        const std::array<std::uint32_t, 1> contexts{static_cast<std::uint32_t>(e) * 16 + (result & 15U)};
+        const int out = top ? code(coder, in, {kind + 1, 0, 0}, contexts) : coder.code(in, 32768);
+        result = (result << 1) | static_cast<std::uint32_t>(out);
     }
-    return static_cast<std::uint32_t>(result - 1);
+    return result - 1;
 }
 
 std::int32_t ContextMixer::code_int(EntropyCoder& coder, std::int32_t value, std::uint32_t kind,
                                     std::uint32_t context) {
-    const auto folded = value >= 0 ? static_cast<std::uint32_t>(value) * 2
-                                   : static_cast<std::uint32_t>(-(value + 1)) * 2 + 1;
+    // 0, -1, 1, -2, 2 ... become 0, 1, 2, 3, 4 ...
+    const std::uint32_t folded = (static_cast<std::uint32_t>(value) << 1) ^ (value < 0 ? 0xFFFFFFFFU : 0U);
     const std::uint32_t u = code_uint(coder, folded, kind, context);
-    return (u & 1U) != 0 ? -static_cast<std::int32_t>(u / 2) - 1 : static_cast<std::int32_t>(u / 2);
+    return static_cast<std::int32_t>((u >> 1) ^ ((u & 1U) != 0 ? 0xFFFFFFFFU : 0U));
 }
 
 }  // namespace pfgeom

@@ -1,0 +1,153 @@
+# Everything a person does with this tree, on Debian 12 from nothing but make. `make` alone lists the targets.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+# demo: a mesh file of yours, and where the results go
+MESH ?=
+OUT ?= out
+# ON: warnings are errors in the release build
+WERROR ?= OFF
+# check: executions of the header's and the coder's fuzz targets; of the whole file's a tenth
+FUZZ_RUNS ?= 200000
+
+jobs := $(shell nproc)
+venv := .venv/bin
+release := build/release
+stamp := build/stamps
+export PATH := $(CURDIR)/$(venv):$(PATH)
+ifneq ($(shell command -v ccache),)
+export CMAKE_CXX_COMPILER_LAUNCHER ?= ccache
+endif
+
+sources := CMakeLists.txt pyproject.toml $(shell find cmake native python -type f -not -path '*/__pycache__/*')
+build_packages := g++ cmake ninja-build libeigen3-dev python3-venv python3-dev
+test_packages := libgtest-dev libopenmesh-dev
+check_packages := ccache clang clang-format clang-tidy llvm libclang-rt-14-dev \
+    g++-aarch64-linux-gnu qemu-user libbenchmark-dev
+
+.PHONY: help demo test check wheel bench format clean
+help:
+	@echo 'make demo [MESH=path]  set up, build, compress an example mesh (or yours), print a table, write the result'
+	@echo 'make test              set up, build, run the native and the Python tests'
+	@echo 'make check             for developers: warnings, formats, linters, sanitizers, fuzzing, determinism, coverage'
+	@echo 'make wheel             a wheel in dist/, tried in an empty environment'
+	@echo 'make bench             benchmarks'
+	@echo 'make format            clang-format and ruff, in place'
+	@echo 'make clean             remove what was built'
+
+# --- set-up ---------------------------------------------------------------------------------------------------
+
+$(stamp)/apt-%: Makefile .ci/need
+	@mkdir -p $(stamp)
+	.ci/need $($*_packages)
+	@touch $@
+
+$(stamp)/venv-build: .ci/requirements/build.txt $(stamp)/apt-build
+	python3 -m venv .venv
+	$(venv)/python -m pip install --quiet -r $<
+	@touch $@
+
+$(stamp)/venv-%: .ci/requirements/%.txt $(stamp)/venv-build
+	$(venv)/python -m pip install --quiet -r $<
+	@touch $@
+
+# The extension and the native tests share one build tree.
+$(stamp)/installed: $(sources) $(stamp)/venv-build
+	@echo "Building pfgeom ($(jobs) jobs, a few minutes the first time)"
+	$(venv)/python -m pip install --quiet --no-build-isolation --no-deps --force-reinstall \
+	    --config-settings=build-dir=$(release) --config-settings=cmake.define.CMAKE_EXPORT_COMPILE_COMMANDS=ON \
+	    $(if $(filter ON,$(WERROR)),--config-settings=cmake.define.PFGEOM_WARNINGS_AS_ERRORS=ON) .
+	@touch $@
+
+# --- for everybody --------------------------------------------------------------------------------------------
+
+demo: $(stamp)/installed
+	@$(venv)/python examples/demo.py $(if $(MESH),"$(MESH)") --out "$(OUT)"
+
+.PHONY: native-tests
+native-tests: $(stamp)/installed $(stamp)/apt-test
+	cmake -S . -B $(release) -DPFGEOM_BUILD_TESTS=ON >/dev/null
+	.ci/step 'build, release' cmake --build $(release) --parallel $(jobs)
+
+test: native-tests $(stamp)/venv-test
+	.ci/step 'native tests' ctest --test-dir $(release) --parallel $(jobs) --output-on-failure --progress
+	.ci/step 'Python and style tests' $(venv)/python -m pytest -q
+
+# --- for developers -------------------------------------------------------------------------------------------
+
+checks := check-format check-python check-warnings check-sanitizers check-threads check-fuzz check-tidy \
+    check-determinism check-coverage
+.PHONY: $(checks) check-tools
+check:
+	@for c in $(checks); do .ci/step $$c $(MAKE) --no-print-directory $$c; done
+	@echo 'All checks passed.'
+
+check-tools: $(stamp)/apt-test $(stamp)/apt-check $(stamp)/venv-test $(stamp)/venv-check
+
+cpp_files = $(shell find native tests examples -name '*.h' -o -name '*.cpp')
+check-format: check-tools
+	clang-format --dry-run -Werror $(cpp_files)
+
+check-python: check-tools $(stamp)/installed
+	ruff check .
+	ruff format --check .
+	mypy
+
+# GCC here; Clang's warnings are errors in the asan preset.
+check-warnings: check-tools $(stamp)/installed
+	cmake --preset release -DPFGEOM_WARNINGS_AS_ERRORS=ON >/dev/null
+	cmake --build $(release) --parallel $(jobs)
+
+check-sanitizers: check-tools
+	cmake --preset asan >/dev/null
+	cmake --build build/asan --parallel $(jobs)
+	ctest --test-dir build/asan --parallel $(jobs) --output-on-failure --progress
+
+# The stages with threads of their own.
+check-threads: check-tools
+	cmake --preset tsan >/dev/null
+	cmake --build build/tsan --parallel $(jobs) --target test_base test_polygonize test_report test_compress
+	TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build/tsan --parallel $(jobs) --output-on-failure --progress -L 'base|polygonize|report|compress'
+
+check-fuzz: check-tools
+	cmake --preset asan >/dev/null
+	cmake --build build/asan --parallel $(jobs)
+	.ci/fuzz build/asan $(FUZZ_RUNS)
+
+check-tidy: check-tools $(stamp)/installed
+	.ci/tidy $(release)
+
+check-determinism: check-tools
+	$(venv)/python tests/determinism/run.py --jobs $(jobs)
+
+check-coverage: check-tools
+	cmake --preset coverage >/dev/null
+	cmake --build build/coverage --parallel $(jobs) --target test_codec
+	find build/coverage -name '*.gcda' -delete
+	build/coverage/tests/test_codec --gtest_brief=1
+	gcovr --root . --filter native/pfgeom/codec/ --object-directory build/coverage --fail-under-line 90
+
+wheel: $(stamp)/installed $(stamp)/venv-check
+	rm -rf build/wheel && mkdir -p build/wheel dist
+	$(venv)/python -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir build/wheel \
+	    --config-settings=build-dir=$(release) .
+	$(venv)/auditwheel repair --wheel-dir dist build/wheel/*.whl
+	python3 -m venv build/wheel/venv
+	build/wheel/venv/bin/python -m pip install --quiet "$$(ls -t dist/*.whl | head -1)"
+	cd build/wheel && venv/bin/python -I ../../tests/install/wheel.py
+
+bench: $(stamp)/apt-check $(stamp)/venv-build
+	cmake --preset release -DPFGEOM_BUILD_BENCHMARKS=ON >/dev/null
+	cmake --build $(release) --parallel $(jobs) --target pfgeom_bench
+	$(release)/tests/bench/pfgeom_bench
+
+format: check-tools
+	clang-format -i $(cpp_files)
+	ruff check --fix-only .
+	ruff format .
+
+clean:
+	rm -rf build dist out .venv .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -1,0 +1,49 @@
+// numpy arrays <-> the library's vectors.
+#pragma once
+
+#include "pfgeom/mesh/triangle_mesh.h"
+
+#include <pybind11/numpy.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pfgeom::bindings {
+
+/// What the package passes: exactly this type, C-contiguous; anything else is a TypeError (bind with
+/// noconvert).
+using Points = pybind11::array_t<double, pybind11::array::c_style>;
+using Indices = pybind11::array_t<std::int32_t, pybind11::array::c_style>;
+
+/// Copies (n,3) and (m,3). Throws InvalidInput: shapes, coordinates that are not finite, indices out of
+/// range.
+TriangleMesh mesh_from(const Points& vertices, const Indices& faces);
+
+/// Rows of a (n,3) array of points, as they lie in memory.
+std::vector<Vec3> points_from(const Points& points);
+
+/// All entries, in the order of memory; valid as long as the array.
+inline std::span<const std::int32_t> span_of(const Indices& indices) {
+    return {indices.data(), static_cast<std::size_t>(indices.size())};
+}
+
+/// Hands the rows over without a copy: the array owns them.
+template <class Scalar, class Row>
+pybind11::array_t<Scalar> array_from(std::vector<Row> rows) {
+    static_assert(sizeof(Row) == 3 * sizeof(Scalar));
+    auto owned = std::make_unique<std::vector<Row>>(std::move(rows));
+    const auto count = static_cast<pybind11::ssize_t>(owned->size());
+    const auto* data = reinterpret_cast<const Scalar*>(owned->data());
+    const pybind11::capsule owner(owned.get(), [](void* p) { delete static_cast<std::vector<Row>*>(p); });
+    owned.release();
+    return pybind11::array_t<Scalar>({count, pybind11::ssize_t{3}}, data, owner);
+}
+
+/// (vertices (n,3) float64, faces (m,3) int32)
+pybind11::tuple arrays_from(TriangleMesh mesh);
+
+}  // namespace pfgeom::bindings

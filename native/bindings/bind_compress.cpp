@@ -1,0 +1,33 @@
+#include "pfgeom/compress/compress.h"
+
+#include "arrays.h"
+#include "bindings.h"
+#include "describe.h"
+#include "job.h"
+#include "model_handle.h"
+
+namespace py = pybind11;
+
+namespace pfgeom::bindings {
+namespace {
+
+py::tuple compress_arrays(const Points& vertices, const Indices& faces, double tolerance, bool relative,
+                          bool rms, int threads, py::object progress, const CancelToken* cancel) {
+    const TriangleMesh mesh = mesh_from(vertices, faces);
+    const CompressOptions options{tolerance, relative, rms ? Metric::rms : Metric::max};
+    Job job(threads, std::move(progress), cancel);
+    Compressed result = job.run([&](const Task& task) { return compress(mesh, options, task); });
+    const py::dict report = describe_report(result.report);
+    return py::make_tuple(std::make_shared<ModelHandle>(std::move(result.model), std::move(result.bytes)),
+                          report);
+}
+
+}  // namespace
+
+void bind_compress(py::module_& m) {
+    m.def("compress", &compress_arrays, py::arg("vertices").noconvert(), py::arg("faces").noconvert(),
+          py::arg("tolerance"), py::arg("relative"), py::arg("rms"), py::arg("threads"), py::arg("progress"),
+          py::arg("cancel"), "(Model, what was measured on the way)");
+}
+
+}  // namespace pfgeom::bindings

@@ -1,0 +1,86 @@
+#include "describe.h"
+
+#include "pfgeom/codec/codec.h"
+
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace pfgeom::bindings {
+namespace {
+
+py::dict describe_shape(const Solid& solid) {
+    return py::dict("kind"_a = "solid", "nodes"_a = solid.nodes.size());
+}
+py::dict describe_shape(const Sheet&) {
+    return py::dict("kind"_a = "sheet");
+}
+py::dict describe_shape(const MeshPart& part) {
+    return py::dict("kind"_a = "mesh", "vertices"_a = part.positions.size(), "faces"_a = part.faces.size());
+}
+
+py::dict describe_one_sided(const OneSided& side) {
+    return py::dict("max"_a = side.max, "max_bound"_a = side.max_bound, "rms"_a = side.rms,
+                    "mean"_a = side.mean, "p99"_a = side.p99, "normal_deg_mean"_a = side.normal_mean_deg,
+                    "worst"_a = py::make_tuple(side.worst.x, side.worst.y, side.worst.z));
+}
+
+py::dict describe_defects(const MeshDefects& d) {
+    return py::dict("unused_vertices"_a = d.unused_vertices, "duplicate_vertices"_a = d.duplicate_vertices,
+                    "degenerate_faces"_a = d.degenerate_faces, "duplicate_faces"_a = d.duplicate_faces,
+                    "boundary_edges"_a = d.boundary_edges, "seam_edges"_a = d.seam_edges,
+                    "non_manifold_edges"_a = d.non_manifold_edges,
+                    "non_manifold_vertices"_a = d.non_manifold_vertices,
+                    "misoriented_edges"_a = d.misoriented_edges);
+}
+
+}  // namespace
+
+py::tuple describe_functions(const Model& model) {
+    const FunctionCount count = count_functions(model);
+    return py::make_tuple(count.surface, count.separators, count.perturbations, count.mesh_part_faces);
+}
+
+py::list describe_objects(const Model& model) {
+    py::list objects;
+    for (const Object& object : model.objects) {
+        py::dict entry = std::visit([](const auto& shape) { return describe_shape(shape); }, object.shape);
+        entry["cavity_of"] = object.cavity_of < 0 ? py::object(py::none()) : py::int_(object.cavity_of);
+        entry["instances"] = 1 + object.instances.size();
+        objects.append(entry);
+    }
+    return objects;
+}
+
+py::dict describe_promise(const Model& model) {
+    const Promise& promise = model.promise;
+    return py::dict("metric"_a = promise.metric == Metric::max ? "max" : "rms",
+                    "tolerance"_a = promise.tolerance, "bound_mesh"_a = promise.bound_mesh,
+                    "certified"_a = promise.certified, "rms"_a = promise.rms, "diagonal"_a = model.diagonal);
+}
+
+py::dict describe_sizes(const Model& model) {
+    const SizeReport sizes = measure_size(model);
+    return py::dict("total"_a = sizes.total, "head"_a = sizes.head, "by_object"_a = sizes.bytes_of_object,
+                    "by_level"_a = sizes.bytes_of_level);
+}
+
+py::dict describe_deviation(const Deviation& d) {
+    return py::dict("max"_a = d.max(), "max_bound"_a = d.max_bound(), "rms"_a = d.rms(), "mean"_a = d.mean(),
+                    "p99"_a = d.p99(), "normal_deg_mean"_a = d.normal_mean_deg(), "certified"_a = d.certified,
+                    "a_to_b"_a = describe_one_sided(d.a_to_b), "b_to_a"_a = describe_one_sided(d.b_to_a));
+}
+
+py::dict describe_report(const CompressReport& report) {
+    py::list islands;
+    for (const IslandReport& island : report.islands)
+        islands.append(
+            py::dict("faces"_a = island.faces, "candidate"_a = island.candidate, "bytes"_a = island.bytes));
+    return py::dict("vertices"_a = report.input_vertices, "faces"_a = report.input_faces,
+                    "raw_bytes"_a = report.raw_bytes, "mesh_faces"_a = report.mesh_faces,
+                    "deviation"_a = describe_deviation(report.deviation), "islands"_a = islands,
+                    "defects"_a = describe_defects(report.defects));
+}
+
+}  // namespace pfgeom::bindings

@@ -1,0 +1,39 @@
+// A model with its bytes and, once somebody asks for values, its field.
+#pragma once
+
+#include "pfgeom/eval/model_field.h"
+#include "pfgeom/function/model.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace pfgeom::bindings {
+
+class ModelHandle {
+  public:
+    /// `bytes`: what `model` was decoded from.
+    ModelHandle(Model model, std::vector<std::uint8_t> bytes)
+        : model_(std::move(model)), bytes_(std::move(bytes)) {}
+
+    const Model& model() const { return model_; }
+    const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+    /// Made at the first call; safe from many threads. To be called without the interpreter's lock.
+    const ModelField& field() const {
+        std::call_once(once_, [this] { field_.emplace(model_); });
+        return *field_;
+    }
+
+  private:
+    Model model_;
+    std::vector<std::uint8_t> bytes_;
+    mutable std::once_flag once_;
+    mutable std::optional<ModelField> field_;
+};
+
+using ModelPointer = std::shared_ptr<ModelHandle>;
+
+}  // namespace pfgeom::bindings

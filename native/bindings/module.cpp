@@ -1,0 +1,13 @@
+#include "bindings.h"
+
+PYBIND11_MODULE(_core, m) {
+    using namespace pfgeom::bindings;
+    m.doc() = "Native core of pfgeom; private, use the package's own names.";
+    m.attr("__version__") = PFGEOM_VERSION;
+    bind_errors(m);
+    bind_task(m);
+    bind_mesh(m);
+    bind_model(m);
+    bind_compress(m);
+    bind_report(m);
+}

@@ -1,0 +1,52 @@
+// The outside of a .pfg file: magic, version, lengths, optional sections, checksum (docs/FORMAT.md, section
+// 2).
+//
+//     magic 4 | version 1 | varint: 2 · length of the stream + (1 if sections follow) | [varint: length of
+//     the sections] | stream | sections | CRC-32C of all before, 4
+//
+// A section is: varint 2 · id + required | varint length | content. Ids rise strictly.
+#pragma once
+
+#include "pfgeom/base/limits.h"
+#include "pfgeom/base/status.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pfgeom {
+
+/// 0xF5 never occurs in UTF-8 and loses its top bit on a 7-bit line; CR LF changes in a text-mode transfer.
+constexpr std::array<std::uint8_t, 4> kMagic{0xF5, 'p', '\r', '\n'};
+constexpr std::uint8_t kVersion = 1;
+
+enum class SectionId : std::uint32_t {
+    names = 1,
+    world_transform = 2,
+    face_groups = 3,
+};
+
+struct Section {
+    SectionId id{};
+    bool required = false;
+    std::vector<std::uint8_t> content;
+};
+
+/// Views into the bytes of a file.
+struct Envelope {
+    struct View {
+        SectionId id{};
+        std::span<const std::uint8_t> content;
+    };
+    std::span<const std::uint8_t> stream;
+    std::vector<View> sections;  ///< known ones; unknown optional ones are left out
+};
+
+std::vector<std::uint8_t> seal_envelope(std::span<const std::uint8_t> stream,
+                                        std::span<const Section> sections);
+
+/// Checks in this order: magic, version, lengths, checksum, sections.
+Result<Envelope> open_envelope(std::span<const std::uint8_t> bytes, const Limits& limits);
+
+}  // namespace pfgeom

@@ -1,0 +1,42 @@
+#include "pfgeom/codec/model_codec.h"
+
+#include "pfgeom/codec/function_codec.h"
+#include "pfgeom/codec/mesh_part_codec.h"
+#include "pfgeom/codec/object_codec.h"
+#include "pfgeom/codec/promise_codec.h"
+
+namespace pfgeom {
+namespace {
+
+// Contexts of code_size.
+constexpr std::uint32_t kFunctionCount = 0, kObjectCount = 1;
+
+}  // namespace
+
+void code_model(CodecStream& stream, Model& model, StreamCost* cost) {
+    code_promise(stream, model.diagonal, model.promise);
+    code_size(stream, model.functions, kFunctionCount);
+    code_size(stream, model.objects, kObjectCount);
+    for (Function& function : model.functions) {
+        if (!stream.ok()) return;
+        const double before = stream.coder.bits_so_far();
+        code_function(stream, function);
+        if (cost) cost->functions.push_back(stream.coder.bits_so_far() - before);
+    }
+    ObjectCoder objects(stream, model);
+    for (Object& object : model.objects) {
+        if (!stream.ok()) return;
+        objects.code(object);
+        if (cost) cost->shapes.push_back(objects.shape_bits());
+    }
+}
+
+Model canonical(const Model& model) {
+    Model copy = model;
+    for (Object& object : copy.objects) {
+        if (auto* part = std::get_if<MeshPart>(&object.shape)) *part = canonical(*part);
+    }
+    return copy;
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,24 @@
+// The stream of a whole model, in either direction.
+#pragma once
+
+#include "pfgeom/codec/codec_stream.h"
+#include "pfgeom/function/model.h"
+
+#include <vector>
+
+namespace pfgeom {
+
+/// Bits that the parts of a stream cost, by their place in the model.
+struct StreamCost {
+    std::vector<double> functions;
+    std::vector<double>
+        shapes;  ///< set expressions, sheets and mesh parts, without frame, nesting and instances
+};
+
+/// Everything of `model` but what the optional sections hold. Mesh parts must be canonical.
+void code_model(CodecStream& stream, Model& model, StreamCost* cost = nullptr);
+
+/// The model with its mesh parts in the order in which they are coded.
+Model canonical(const Model& model);
+
+}  // namespace pfgeom

@@ -1,0 +1,44 @@
+"""pfgeom: polygon meshes as the smallest set of functions within a tolerance.
+
+>>> import pfgeom
+>>> model = pfgeom.compress(vertices, faces, tolerance=1e-3)   # or any mesh object
+>>> model.save("shape.pfg")
+>>> vertices, faces = pfgeom.load("shape.pfg").to_mesh()
+>>> model.contains([0.0, 0.0, 0.0])
+
+Long calls take ``threads``, ``progress`` and ``cancel``, and release the interpreter's lock. Nothing is printed;
+the logger is ``logging.getLogger("pfgeom")``.
+"""
+
+import logging
+
+from ._core import __version__
+from .deviation import Deviation, OneSided, compare
+from .encoder import compress
+from .errors import Cancelled, FormatError, LimitError, PfgeomError
+from .meshes import Mesh, read_mesh, write_mesh
+from .model import FunctionCount, Model, from_bytes, load
+from .tasks import CancelToken, Progress
+
+__all__ = [
+    "CancelToken",
+    "Cancelled",
+    "Deviation",
+    "FormatError",
+    "FunctionCount",
+    "LimitError",
+    "Mesh",
+    "Model",
+    "OneSided",
+    "PfgeomError",
+    "Progress",
+    "__version__",
+    "compare",
+    "compress",
+    "from_bytes",
+    "load",
+    "read_mesh",
+    "write_mesh",
+]
+
+logging.getLogger(__name__).addHandler(logging.NullHandler())

@@ -1,0 +1,73 @@
+"""Native core of pfgeom; private, use the package's own names."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+_Float64 = NDArray[np.float64]
+_Int32 = NDArray[np.int32]
+_Progress = Callable[[float, str], object] | None
+
+class CancelToken:
+    """Stops a running call, from any thread."""
+
+    def __init__(self) -> None: ...
+    def cancel(self) -> None:
+        """The running call raises pfgeom.Cancelled within 100 ms."""
+    @property
+    def cancelled(self) -> bool:
+        """True once cancel() was called."""
+
+class Model:
+    """A decoded model and its bytes."""
+
+    def to_bytes(self) -> bytes: ...
+    def to_mesh(
+        self,
+        tolerance: float | None,
+        resolution: int | None,
+        threads: int,
+        progress: _Progress,
+        cancel: CancelToken | None,
+    ) -> tuple[_Float64, _Int32]: ...
+    def values(self, points: _Float64, threads: int) -> _Float64: ...
+    def gradients(self, points: _Float64, threads: int) -> _Float64: ...
+    def contains(self, points: _Float64, threads: int) -> NDArray[np.uint8]: ...
+    def bounds(self) -> _Float64: ...
+    def functions(self) -> tuple[int, int, int, int]: ...
+    def objects(self) -> list[dict[str, Any]]: ...
+    def promise(self) -> dict[str, Any]: ...
+    def sizes(self) -> dict[str, Any]: ...
+
+def compare(
+    vertices_a: _Float64,
+    faces_a: _Int32,
+    vertices_b: _Float64,
+    faces_b: _Int32,
+    samples: int,
+    seed: int,
+    bound: bool,
+    threads: int,
+    progress: _Progress,
+    cancel: CancelToken | None,
+) -> dict[str, Any]: ...
+def compress(
+    vertices: _Float64,
+    faces: _Int32,
+    tolerance: float,
+    relative: bool,
+    rms: bool,
+    threads: int,
+    progress: _Progress,
+    cancel: CancelToken | None,
+) -> tuple[Model, dict[str, Any]]: ...
+def decode(data: bytes) -> Model: ...
+def read_file(path: str | bytes) -> bytes: ...
+def read_mesh(path: str | bytes) -> tuple[_Float64, _Int32]: ...
+def triangulate(vertices: _Float64, corners: _Int32, lengths: _Int32) -> _Int32: ...
+def write_file(path: str | bytes, data: bytes) -> None: ...
+def write_mesh(path: str | bytes, vertices: _Float64, faces: _Int32) -> None: ...

@@ -1,0 +1,118 @@
+"""The grammar of the command line."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import Any
+
+from ._core import __version__
+
+MESH_SUFFIXES = (".ply", ".obj", ".stl", ".off")
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The parsed arguments hold the name of the command as ``command``."""
+    parser = argparse.ArgumentParser(
+        prog="pfgeom", description="Polygon meshes as the smallest set of functions within a tolerance."
+    )
+    parser.add_argument("--version", action="version", version=f"pfgeom {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_compress(commands)
+    _add_decompress(commands)
+    _add_info(commands)
+    _add_compare(commands)
+    return parser
+
+
+def _add_compress(commands: Any) -> None:
+    command = commands.add_parser("compress", help="a mesh into a .pfg file")
+    command.add_argument("input", metavar="IN", help="OBJ, PLY, STL or OFF file")
+    command.add_argument("output", metavar="OUT.pfg", type=_path_ending(".pfg"))
+    command.add_argument(
+        "--tolerance", type=_positive, default=1e-3, metavar="T",
+        help="allowed deviation, as a share of the bounding box's diagonal (default 1e-3)",
+    )  # fmt: skip
+    _add_absolute(command)
+    command.add_argument(
+        "--metric", choices=("max", "rms"), default="max", help="what the tolerance limits (default max)"
+    )
+    _add_common(command)
+
+
+def _add_decompress(commands: Any) -> None:
+    command = commands.add_parser("decompress", help="a .pfg file into a mesh")
+    command.add_argument("input", metavar="IN.pfg")
+    command.add_argument("output", metavar="OUT.{ply,obj,stl,off}", type=_path_ending(*MESH_SUFFIXES))
+    detail = command.add_mutually_exclusive_group()
+    detail.add_argument(
+        "--tolerance", type=_positive, metavar="T",
+        help="extra error of the mesh against the functions, as a share of the diagonal",
+    )  # fmt: skip
+    detail.add_argument("--resolution", type=_count, metavar="N", help="cells along the longest side, 8 to 4096")
+    _add_absolute(command)
+    _add_common(command)
+
+
+def _add_info(commands: Any) -> None:
+    command = commands.add_parser("info", help="what a .pfg file holds and promises")
+    command.set_defaults(quiet=False)
+    command.add_argument("input", metavar="IN.pfg")
+    _add_json(command)
+
+
+def _add_compare(commands: Any) -> None:
+    command = commands.add_parser("compare", help="how far two surfaces are from each other")
+    command.add_argument("a", metavar="A", help="mesh or .pfg file")
+    command.add_argument("b", metavar="B", help="mesh or .pfg file")
+    command.add_argument("--samples", type=_count, default=200_000, metavar="N", help="a side (default 200000)")
+    command.add_argument("--no-bound", dest="bound", action="store_false", help="leave out the proof of the maximum")
+    _add_common(command)
+
+
+def _add_absolute(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--absolute", action="store_true", help="the tolerance is a length in the mesh's units")
+
+
+def _add_common(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--threads", type=_threads, default=0, metavar="N", help="default: all")
+    _add_json(command)
+    command.add_argument("--quiet", action="store_true", help="no table and no progress bar")
+
+
+def _add_json(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not (math.isfinite(value) and value > 0):
+        raise argparse.ArgumentTypeError(f"must be positive: {text}")
+    return value
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"must be 1 or more: {text}")
+    return value
+
+
+def _threads(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"must be 0 (all) or more: {text}")
+    return value
+
+
+class _path_ending:  # noqa: N801 - used like a function, and argparse shows its name
+    """A path with one of the given extensions, in any case."""
+
+    def __init__(self, *suffixes: str) -> None:
+        self._suffixes = suffixes
+
+    def __call__(self, text: str) -> str:
+        if Path(text).suffix.lower() not in self._suffixes:
+            raise argparse.ArgumentTypeError(f"{text!r} must end in {' or '.join(self._suffixes)}")
+        return text

@@ -1,0 +1,183 @@
+"""The command line: compress, decompress, info, compare.
+
+Exit codes: 0 done, 1 failed (one sentence on stderr), 2 wrong usage, 130 interrupted. Results go to stdout, as a
+table or with ``--json`` as one object; the progress bar goes to stderr, if that is a terminal.
+"""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import os
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from . import tables
+from .arguments import build_parser
+from .deviation import Deviation, compare
+from .encoder import compress
+from .errors import PfgeomError
+from .meshes import Mesh, read_mesh, write_mesh
+from .model import Model, load
+from .progress import progress_bar
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; returns the exit code."""
+    args = build_parser().parse_args(argv)
+    commands = {
+        "compress": run_compress,
+        "decompress": run_decompress,
+        "info": run_info,
+        "compare": run_compare,
+    }
+    try:
+        commands[args.command](args)
+    except KeyboardInterrupt:
+        print("pfgeom: interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:  # the reader of our stdout has gone: nobody to tell
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except MemoryError:
+        return _fail("not enough memory")
+    except OSError as why:
+        return _fail(f"{os.fsdecode(why.filename)}: {why.strerror}" if why.filename else str(why))
+    except (PfgeomError, ValueError) as why:
+        return _fail(str(why))
+    return 0
+
+
+def _fail(sentence: str) -> int:
+    print(f"pfgeom: error: {sentence}", file=sys.stderr)
+    return 1
+
+
+# --- commands --------------------------------------------------------------------------------------------------
+
+
+def run_compress(args: argparse.Namespace) -> None:
+    _check_target(args.output)
+    mesh = read_mesh(args.input)
+    start = time.perf_counter()
+    with progress_bar(quiet=args.quiet) as progress:
+        model = compress(
+            mesh,
+            tolerance=args.tolerance,
+            relative=not args.absolute,
+            metric=args.metric,
+            threads=args.threads,
+            progress=progress,
+        )
+    seconds = time.perf_counter() - start
+    model.save(args.output)
+    _print(args, compress_figures(args, model, seconds), tables.compressed)
+
+
+def run_decompress(args: argparse.Namespace) -> None:
+    _check_target(args.output)
+    start = time.perf_counter()
+    model = load(args.input)
+    with progress_bar(quiet=args.quiet) as progress:
+        mesh = model.to_mesh(
+            args.tolerance,
+            args.resolution,
+            relative=not args.absolute,
+            threads=args.threads,
+            progress=progress,
+        )
+    write_mesh(args.output, mesh)
+    seconds = time.perf_counter() - start
+    _print(args, decompress_figures(args, model, mesh, seconds), tables.decompressed)
+
+
+def run_info(args: argparse.Namespace) -> None:
+    _print(args, {"input": args.input, **load(args.input).info()}, tables.info)
+
+
+def run_compare(args: argparse.Namespace) -> None:
+    a, b = _read_shape(args.a), _read_shape(args.b)
+    with progress_bar(quiet=args.quiet) as progress:
+        deviation = compare(a, b, samples=args.samples, bound=args.bound, threads=args.threads, progress=progress)
+    _print(args, compare_figures(args, deviation), tables.compared)
+
+
+# --- figures: what --json prints and the tables show -----------------------------------------------------------
+
+
+def compress_figures(args: argparse.Namespace, model: Model, seconds: float) -> dict[str, Any]:
+    report = model.report or {}
+    return {
+        "input": args.input,
+        "output": args.output,
+        "vertices": report["vertices"],
+        "triangles": report["faces"],
+        "raw_bytes": report["raw_bytes"],
+        "file_bytes": model.nbytes,
+        "ratio": report["raw_bytes"] / model.nbytes,
+        **_promise_figures(model),
+        "max": report["deviation"]["max"],
+        "mesh_triangles": report["mesh_faces"],
+        "islands": len(report["islands"]),
+        "candidates": dict(Counter(island["candidate"] for island in report["islands"])),
+        "defects": report["defects"],
+        "seconds": seconds,
+    }
+
+
+def decompress_figures(args: argparse.Namespace, model: Model, mesh: Mesh, seconds: float) -> dict[str, Any]:
+    return {
+        "input": args.input,
+        "output": args.output,
+        "file_bytes": model.nbytes,
+        **_promise_figures(model),
+        "vertices": len(mesh.vertices),
+        "triangles": len(mesh.faces),
+        "default_mesh": args.tolerance is None and args.resolution is None,
+        "seconds": seconds,
+    }
+
+
+def compare_figures(args: argparse.Namespace, deviation: Deviation) -> dict[str, Any]:
+    return {"a": args.a, "b": args.b, "samples": args.samples, **deviation.to_dict()}
+
+
+def _promise_figures(model: Model) -> dict[str, Any]:
+    return {
+        "functions": model.functions._asdict(),
+        "metric": model.metric,
+        "tolerance": model.tolerance,
+        "bound_mesh": model.bound_mesh,
+        "certified": model.certified,
+        "rms": model.rms,
+        "diagonal": model.diagonal,
+    }
+
+
+def _print(args: argparse.Namespace, figures: dict[str, Any], table: tables.Table) -> None:
+    if args.json:
+        print(tables.as_json(figures))
+    elif not args.quiet:
+        print(tables.align(table(figures)))
+
+
+# --- files -----------------------------------------------------------------------------------------------------
+
+
+def _read_shape(path: str) -> Mesh | Model:
+    return load(path) if path.lower().endswith(".pfg") else read_mesh(path)
+
+
+def _check_target(path: str) -> None:
+    """Fail before the work rather than after it."""
+    folder = Path(path).parent
+    if Path(path).is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), path)
+    if not folder.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(folder))
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(folder))

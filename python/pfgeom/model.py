@@ -1,0 +1,312 @@
+"""A compressed shape: its functions, its bytes, and everything that can be asked of it."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from .errors import FormatError
+from .meshes import Mesh, native_path
+from .tasks import CancelToken, Progress, check_task
+
+
+class FunctionCount(NamedTuple):
+    """How many functions a model consists of: distinct sets of coefficients.
+
+    Its text is the headline figure, such as ``83 + 0 + 0``: surfaces, separators and perturbations.
+
+    Attributes
+    ----------
+    surface : int
+        Functions that the surface is made of.
+    separators : int
+        Functions used only to cut space apart or to trim open surfaces.
+    perturbations : int
+        Perturbations with a form factor that is not zero.
+    mesh_part_faces : int
+        Triangles of mesh parts, which are no functions and are counted apart.
+    """
+
+    surface: int
+    separators: int
+    perturbations: int
+    mesh_part_faces: int
+
+    def __str__(self) -> str:
+        return f"{self.surface} + {self.separators} + {self.perturbations}"
+
+
+class Model:
+    """A shape as functions: the surface is where they are zero, inside is where they are positive.
+
+    Made by `pfgeom.compress`, `pfgeom.load` and `pfgeom.from_bytes`; immutable, safe to use from many threads.
+    Models are equal when their bytes are; they can be hashed, pickled and copied.
+
+    Called with points, a model gives the values of its field: see `__call__`.
+    """
+
+    def __init__(self, core: _core.Model, report: dict[str, Any] | None = None) -> None:
+        self._core = core
+        self._report = report
+
+    # --- bytes -------------------------------------------------------------------------------------------
+
+    def to_bytes(self) -> bytes:
+        """The content of a ``.pfg`` file (docs/FORMAT.md); the same model gives the same bytes."""
+        return self._core.to_bytes()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a ``.pfg`` file. It is whole or absent, whatever happens.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
+        _core.write_file(native_path(path), self.to_bytes())
+
+    @cached_property
+    def nbytes(self) -> int:
+        """Length of the file."""
+        return len(self.to_bytes())
+
+    # --- the way back ------------------------------------------------------------------------------------
+
+    def to_mesh(
+        self,
+        tolerance: float | None = None,
+        resolution: int | None = None,
+        *,
+        relative: bool = True,
+        threads: int = 0,
+        progress: Progress | None = None,
+        cancel: CancelToken | None = None,
+    ) -> Mesh:
+        """Triangles of the surface.
+
+        Without ``tolerance`` and ``resolution`` this is the default mesh, which `bound_mesh` and `rms` are
+        about. Closed objects become closed 2-manifolds, counter-clockwise seen from outside.
+
+        Parameters
+        ----------
+        tolerance
+            Extra distance of the mesh from the functions: a share of `diagonal`, or a length in the mesh's
+            units where ``relative`` is False.
+        resolution
+            Cells along the longest side, 8 to 4096; not together with ``tolerance``.
+        threads
+            0: all of the machine's. The result does not depend on it.
+        progress
+            Called as ``progress(fraction, stage)`` from this thread, at most 20 times a second; what it raises
+            stops the call.
+        cancel
+            Token that stops the call within 100 ms, from any thread.
+
+        Returns
+        -------
+        Mesh
+            ``(vertices, faces)``: (n, 3) float64 and (m, 3) int32.
+
+        Raises
+        ------
+        ValueError
+            Both or invalid options.
+        LimitError
+            More cells or triangles than one call may make.
+        Cancelled
+            The token was set.
+        """
+        if tolerance is not None and relative:
+            tolerance = tolerance * self.diagonal
+        check_task(threads, progress, cancel)
+        return Mesh(*self._core.to_mesh(tolerance, resolution, threads, progress, cancel))
+
+    # --- the field ---------------------------------------------------------------------------------------
+
+    def __call__(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.float64]:
+        """Values of the field: positive inside the union of the objects, zero on the surface.
+
+        Near the surface they are about the distance to it, in the mesh's units.
+
+        Parameters
+        ----------
+        points : (..., 3)
+            In the mesh's units. A point that is not finite has the value NaN.
+
+        Returns
+        -------
+        (...) float64
+        """
+        check_task(threads)
+        rows, shape = _as_points(points)
+        values = self._core.values(rows, threads)
+        answers: NDArray[np.float64] = values.reshape(shape)[()]
+        return answers
+
+    def gradient(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.float64]:
+        """Gradient of the field. It points inwards: the outward normal is its negative, normalised (paper eq. 14-16).
+
+        Parameters
+        ----------
+        points : (..., 3)
+
+        Returns
+        -------
+        (..., 3) float64
+        """
+        check_task(threads)
+        rows, shape = _as_points(points)
+        return self._core.gradients(rows, threads).reshape((*shape, 3))
+
+    def contains(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.bool_]:
+        """Whether points lie inside the union of the closed objects, or on its surface.
+
+        Parameters
+        ----------
+        points : (..., 3)
+            A point that is not finite is outside.
+
+        Returns
+        -------
+        (...) bool
+        """
+        check_task(threads)
+        rows, shape = _as_points(points)
+        inside = self._core.contains(rows, threads).view(np.bool_)
+        answers: NDArray[np.bool_] = inside.reshape(shape)[()]
+        return answers
+
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """(2, 3) lowest and highest corner of a box that holds the surface."""
+        box = self._core.bounds()
+        box.flags.writeable = False
+        return box
+
+    # --- what is known about it --------------------------------------------------------------------------
+
+    @cached_property
+    def functions(self) -> FunctionCount:
+        """How many functions of each kind."""
+        return FunctionCount(*self._core.functions())
+
+    @cached_property
+    def objects(self) -> list[dict[str, Any]]:
+        """One dict an object: ``kind`` (solid, sheet, mesh), ``cavity_of``, ``instances``, counts."""
+        return self._core.objects()
+
+    @cached_property
+    def _promise(self) -> dict[str, Any]:
+        return self._core.promise()
+
+    @property
+    def diagonal(self) -> float:
+        """Diagonal of the input's bounding box: what relative tolerances refer to."""
+        return float(self._promise["diagonal"])
+
+    @property
+    def metric(self) -> str:
+        """What `tolerance` limits: ``"max"`` or ``"rms"``."""
+        return str(self._promise["metric"])
+
+    @property
+    def tolerance(self) -> float:
+        """The tolerance that was asked for, as a length in the mesh's units."""
+        return float(self._promise["tolerance"])
+
+    @property
+    def bound_mesh(self) -> float:
+        """Largest two-sided deviation between the input and the default mesh, in the mesh's units."""
+        return float(self._promise["bound_mesh"])
+
+    @property
+    def certified(self) -> bool:
+        """Whether `bound_mesh` is proved by branch and bound; else it is the largest of many samples."""
+        return bool(self._promise["certified"])
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the deviation, the worse of both directions, in the mesh's units."""
+        return float(self._promise["rms"])
+
+    @property
+    def report(self) -> dict[str, Any] | None:
+        """What `pfgeom.compress` found and measured; None for a model from a file."""
+        return self._report
+
+    def info(self) -> dict[str, Any]:
+        """Everything that is known about the model, as plain values that JSON takes."""
+        return {
+            "bytes": self.nbytes,
+            "functions": self.functions._asdict(),
+            **self._promise,
+            "bounds": self.bounds.tolist(),
+            "objects": self.objects,
+            "sizes": self._core.sizes(),
+        }
+
+    # --- Python's own ------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        proof = "certified" if self.certified else "sampled"
+        return (
+            f"<pfgeom.Model {self.nbytes:,} bytes, functions {self.functions}, "
+            f"max {self.bound_mesh:.3g} ({proof}), rms {self.rms:.3g}>"
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return self.to_bytes() == other.to_bytes() if isinstance(other, Model) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.to_bytes())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return from_bytes, (self.to_bytes(),)
+
+
+def from_bytes(data: bytes | bytearray | memoryview) -> Model:
+    """A model from the content of a ``.pfg`` file.
+
+    Any bytes give a model or an exception, within memory and time in proportion to their length.
+
+    Raises
+    ------
+    FormatError
+        The bytes are not a whole, undamaged file; ``status`` names the reason.
+    """
+    if not isinstance(data, (bytes, bytearray, memoryview)):
+        raise TypeError(f"expected bytes, got {type(data).__name__}")
+    return Model(_core.decode(bytes(data)))
+
+
+def load(path: str | os.PathLike[str]) -> Model:
+    """A model from a ``.pfg`` file.
+
+    Raises
+    ------
+    FormatError
+        The file is not a whole, undamaged ``.pfg``; ``status`` names the reason.
+    OSError
+        It cannot be opened or read.
+    """
+    native = native_path(path)
+    os.stat(native)  # FileNotFoundError or PermissionError, with the name
+    try:
+        return from_bytes(_core.read_file(native))
+    except FormatError as why:
+        raise FormatError(why.status, f"{os.fsdecode(native)}: {why}") from None
+
+
+def _as_points(points: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    """(n, 3) float64 rows, and the shape without its last axis."""
+    array = np.asarray(points)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"points must be real numbers, not {array.dtype}")
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise ValueError(f"points must have shape (..., 3), not {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.float64).reshape(-1, 3), array.shape[:-1]

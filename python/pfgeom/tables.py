@@ -1,0 +1,122 @@
+"""How the command line shows figures: aligned tables and JSON."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from .model import FunctionCount
+
+#: Label, figure, remark.
+Row: TypeAlias = tuple[str, str, str]
+Table: TypeAlias = Callable[[dict[str, Any]], list[Row]]
+
+
+def align(rows: list[Row]) -> str:
+    """Labels to the left, figures to the right, remarks behind."""
+    label = max(len(row[0]) for row in rows)
+    figure = max(len(row[1]) for row in rows)
+    return "\n".join(f"{a:<{label}}  {b:>{figure}}  {c}".rstrip() for a, b, c in rows)
+
+
+def as_json(figures: dict[str, Any]) -> str:
+    """One object on one line; what is not finite becomes null."""
+    return json.dumps(_finite(figures), allow_nan=False)
+
+
+def compressed(f: dict[str, Any]) -> list[Row]:
+    candidates = ", ".join(f"{kind}: {count:,}" for kind, count in f["candidates"].items())
+    return [
+        ("triangles", f"{f['triangles']:,}", ""),
+        ("raw bytes", f"{f['raw_bytes']:,}", "12 a vertex, 12 a triangle"),
+        ("islands", f"{f['islands']:,}", candidates),
+        *_defects(f["defects"]),
+        _functions(f),
+        ("file bytes", f"{f['file_bytes']:,}", f["output"]),
+        ("ratio", f"{f['ratio']:,.1f}", ": 1"),
+        *_promise(f),
+        ("mesh triangles", f"{f['mesh_triangles']:,}", "by default"),
+        ("seconds", f"{f['seconds']:.2f}", ""),
+    ]
+
+
+def decompressed(f: dict[str, Any]) -> list[Row]:
+    about = "the default mesh, which the figures below are about" if f["default_mesh"] else ""
+    return [
+        ("file bytes", f"{f['file_bytes']:,}", f["input"]),
+        _functions(f),
+        ("triangles", f"{f['triangles']:,}", about),
+        ("vertices", f"{f['vertices']:,}", f["output"]),
+        *_promise(f),
+        ("seconds", f"{f['seconds']:.2f}", ""),
+    ]
+
+
+def info(f: dict[str, Any]) -> list[Row]:
+    kinds = Counter(entry["kind"] for entry in f["objects"])
+    low, high = f["bounds"]
+    return [
+        ("file bytes", f"{f['bytes']:,}", f["input"]),
+        _functions(f),
+        (
+            "objects",
+            f"{len(f['objects']):,}",
+            ", ".join(f"{kind}: {count:,}" for kind, count in kinds.items()),
+        ),
+        *_promise(f),
+        ("diagonal", f"{f['diagonal']:.6g}", "of the input's bounding box"),
+        ("bounds", "", f"{_point(low)} to {_point(high)}"),
+        ("head bytes", f"{f['sizes']['head']:,}", "neither functions nor mesh parts"),
+        *((f"level {depth}", f"{size:,.0f}", "bytes") for depth, size in enumerate(f["sizes"]["by_level"]) if size),
+    ]
+
+
+def compared(f: dict[str, Any]) -> list[Row]:
+    proof = "certified" if f["certified"] else "sampled"
+    lengths = [
+        (name, f"{f[name]:.4e}", f"{f[name] / f['diagonal']:.3e} of the diagonal")
+        for name in ("max", "rms", "mean", "p99")
+    ]
+    label, figure, share = lengths[0]
+    return [
+        (label, figure, f"{share}, {proof}"),
+        *lengths[1:],
+        ("normals", f"{f['normal_deg_mean']:.3f}", "degrees, mean"),
+        ("diagonal", f"{f['diagonal']:.6g}", "of A's bounding box"),
+    ]
+
+
+def _functions(f: dict[str, Any]) -> Row:
+    count = FunctionCount(**f["functions"])
+    patches = f" and {count.mesh_part_faces:,} triangles of mesh parts" if count.mesh_part_faces else ""
+    return ("functions", str(count), "surface + separators + perturbations" + patches)
+
+
+def _promise(f: dict[str, Any]) -> list[Row]:
+    proof = "certified" if f["certified"] else "sampled"
+    diagonal = f["diagonal"]
+    rows = [
+        ("tolerance", f["tolerance"], f["metric"]),
+        ("max", f["bound_mesh"], proof),
+        ("rms", f["rms"], "two-sided, the worse direction"),
+    ]
+    return [(name, f"{value:.4e}", f"{value / diagonal:.3e} of the diagonal, {note}") for name, value, note in rows]
+
+
+def _defects(defects: dict[str, int]) -> list[Row]:
+    return [(name.replace("_", " "), f"{count:,}", "found") for name, count in defects.items() if count]
+
+
+def _point(values: list[float]) -> str:
+    return f"({', '.join(f'{value:.6g}' for value in values)})"
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,70 @@
+"""Same input, same bytes: one hash a scene over compilers, optimisation levels, thread counts and machines.
+
+Builds `determinism_driver` with each preset below, runs it with one and with two threads, and compares what it
+prints. The driver compresses generated meshes and hashes the files, the rebuilt meshes and values of the field.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# preset: the compiler it needs, thread counts to try, and the emulator that runs it
+PRESETS: dict[str, tuple[str, list[int], list[str]]] = {
+    "release": ("g++", [1, 2], []),
+    "gcc-O0": ("g++", [2], []),
+    "clang-O3": ("clang++", [1, 2], []),
+    "aarch64": ("aarch64-linux-gnu-g++", [1], ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"]),
+}
+
+
+def build(preset: str, jobs: int) -> Path:
+    subprocess.run(["cmake", "--preset", preset], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    folder = ROOT / "build" / preset
+    target = ["--target", "determinism_driver", "--parallel", str(jobs)]
+    subprocess.run(["cmake", "--build", str(folder), *target], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    return folder / "tests" / "determinism" / "determinism_driver"
+
+
+def hashes(jobs: int) -> Iterator[tuple[str, str, str]]:
+    """(build, scene, hash), for every build that can be made here."""
+    for preset, (compiler, thread_counts, emulator) in PRESETS.items():
+        if missing := [tool for tool in [compiler, *emulator[:1]] if not shutil.which(tool)]:
+            print(f"{preset}: left out, no {missing[0]} here")
+            continue
+        driver = build(preset, jobs)
+        for threads in thread_counts:
+            command = [*emulator, str(driver), str(threads)]
+            output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+            for line in output.splitlines():
+                scene, digest = line.split()
+                yield f"{preset}, {threads} thread{'s' if threads > 1 else ''}", scene, digest
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--jobs", type=int, default=2)
+    seen: dict[str, dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
+    for build_name, scene, digest in hashes(parser.parse_args().jobs):
+        seen[scene][digest].append(build_name)
+    if len(seen) < 6:
+        print(f"only {len(seen)} scenes")
+        return 1
+
+    for scene, digests in seen.items():
+        for digest, builds in digests.items():
+            print(f"{scene:12} {digest}  {'; '.join(builds)}")
+    differing = [scene for scene, digests in seen.items() if len(digests) > 1]
+    print(f"{len(seen) - len(differing)} of {len(seen)} scenes have one hash")
+    return 1 if differing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

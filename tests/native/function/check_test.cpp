@@ -1,0 +1,118 @@
+#include "pfgeom/function/check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "codec/random_model.h"
+
+namespace pfgeom {
+namespace {
+
+using test::ball;
+
+template <class Change>
+std::string flaw_after(Change change) {
+    Model model = ball();
+    change(model);
+    return find_flaw(model);
+}
+
+TEST(Check, GoodModelsHaveNoFlaw) {
+    EXPECT_EQ(find_flaw(ball()), "");
+    for (std::uint64_t seed = 0; seed < 100; ++seed) EXPECT_EQ(find_flaw(test::random_model(seed)), "") << seed;
+}
+
+TEST(Check, NumbersMustBeFinite) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+    for (const double bad : {kNan, kInf, -kInf, 1e61}) {
+        EXPECT_NE(flaw_after([bad](Model& m) { m.functions[0].base.c[9] = bad; }), "");
+        EXPECT_NE(flaw_after([bad](Model& m) { m.functions[0].perturbations.push_back({bad, {}}); }), "");
+    }
+    for (const double bad : {kNan, kInf, -1.0}) {
+        EXPECT_NE(flaw_after([bad](Model& m) { m.diagonal = bad; }), "");
+        EXPECT_NE(flaw_after([bad](Model& m) { m.promise.tolerance = bad; }), "");
+        EXPECT_NE(flaw_after([bad](Model& m) { m.promise.rms = bad; }), "");
+        EXPECT_NE(flaw_after([bad](Model& m) { m.objects[0].instances.push_back({bad, {}, {}}); }), "");
+    }
+    EXPECT_NE(flaw_after([](Model& m) { m.diagonal = 0; }), "");
+}
+
+TEST(Check, IndicesMustExist) {
+    using Kind = SetNode::Kind;
+    const auto with_node = [](SetNode node) {
+        return flaw_after([node](Model& m) { std::get<Solid>(m.objects[0].shape).nodes.push_back(node); });
+    };
+    EXPECT_EQ(with_node({Kind::complement, 0, -1, -1}), "");
+    EXPECT_EQ(with_node({Kind::decide, 0, 0, 0}), "");
+    EXPECT_NE(with_node({Kind::complement, 1, -1, -1}), "") << "a node is its own child";
+    EXPECT_NE(with_node({Kind::unite, 0, -1, -1}), "");
+    EXPECT_NE(with_node({Kind::function, 1, -1, -1}), "");
+    EXPECT_NE(with_node({Kind::decide, 0, 0, 1}), "");
+    EXPECT_NE(with_node({static_cast<Kind>(7), 0, 0, 0}), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = Solid{}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = Sheet{0, 1}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = MeshPart{0, {{0, 0, 0}}, {{0, 0, 1}}}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = MeshPart{0, {{0, 0, 1 << 27}}, {}}; }), "");
+}
+
+TEST(Check, NestingMustNotBeACircle) {
+    const auto nested = [](std::vector<std::int32_t> outer) {
+        return flaw_after([&outer](Model& m) {
+            m.objects.resize(outer.size(), m.objects[0]);
+            for (std::size_t i = 0; i < outer.size(); ++i) m.objects[i].cavity_of = outer[i];
+        });
+    };
+    EXPECT_EQ(nested({-1, 0, 1, 1, 0}), "");
+    EXPECT_EQ(nested({1, 2, -1}), "");
+    EXPECT_NE(nested({0}), "");
+    EXPECT_NE(nested({1, 0}), "");
+    EXPECT_NE(nested({-1, 2, 3, 1}), "");
+    EXPECT_NE(nested({1}), "");
+    EXPECT_NE(nested({-2}), "");
+}
+
+TEST(Check, InstancesMustBeSimilarities) {
+    const auto with = [](const Similarity& s) { return flaw_after([&s](Model& m) { m.objects[0].instances = {s}; }); };
+    EXPECT_EQ(with({}), "");
+    EXPECT_EQ(with({2, {{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}}, {}}), "") << "a mirror";
+    EXPECT_NE(with({1, {{{1, 0, 0}, {1, 0, 0}, {0, 0, 1}}}, {}}), "");
+    EXPECT_NE(with({1, {{{1, 0, 0}, {0, 1.1, 0}, {0, 0, 1}}}, {}}), "");
+    EXPECT_NE(with({0, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}}), "");
+    EXPECT_NE(with({1, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {NAN, 0, 0}}), "");
+}
+
+TEST(Check, FramesMustBeInRange) {
+    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].frame.scale_code = Frame::kMaxScale + 1; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].frame.offset[1] = Frame::kMaxOffset + 1; }), "");
+}
+
+TEST(Check, OptionalMembers) {
+    EXPECT_NE(flaw_after([](Model& m) { m.names = {"a", "b"}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.names = {std::string(256, 'a')}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.names = {"\xFF"}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.world_transform.assign(12, 0); }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.world_transform.assign(16, 1); }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.face_groups = {0, -1}; }), "");
+}
+
+TEST(Check, TheSentenceNamesTheRow) {
+    Model model = ball();
+    model.objects.resize(3, model.objects[0]);
+    model.objects[2].frame.scale_code = 100000;
+    EXPECT_NE(find_flaw(model).find("object 2"), std::string::npos);
+}
+
+TEST(Utf8, WellFormedOnly) {
+    for (const char* good : {"", "a", "Würfel", "€", "\xF0\x9F\x98\x80", "\xEF\xBF\xBF", "\xF4\x8F\xBF\xBF"}) {
+        EXPECT_TRUE(is_utf8(good)) << good;
+    }
+    for (const char* bad : {"\x80", "\xC3", "\xC0\x80", "\xC1\xBF", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF0\x8F\xBF\xBF",
+                            "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "a\xE2\x82", "\xE2\x28\xA1"}) {
+        EXPECT_FALSE(is_utf8(bad)) << bad;
+    }
+}
+
+}  // namespace
+}  // namespace pfgeom
