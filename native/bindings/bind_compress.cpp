@@ -1,10 +1,9 @@
-#include "pfgeom/compress/compress.h"
-
 #include "arrays.h"
 #include "bindings.h"
 #include "describe.h"
 #include "job.h"
 #include "model_handle.h"
+#include "pfgeom/compress/compress.h"
 
 namespace py = pybind11;
 
@@ -13,10 +12,10 @@ namespace {
 
 py::tuple compress_arrays(const Points& vertices, const Indices& faces, double tolerance, bool relative,
                           bool rms, int threads, py::object progress, const CancelToken* cancel) {
-    const TriangleMesh mesh = mesh_from(vertices, faces);
+    const auto mesh = std::make_shared<const TriangleMesh>(mesh_from(vertices, faces));
     const CompressOptions options{tolerance, relative, rms ? Metric::rms : Metric::max};
     Job job(threads, std::move(progress), cancel);
-    Compressed result = job.run([&](const Task& task) { return compress(mesh, options, task); });
+    Compressed result = job.run([=](const Task& task) { return compress(*mesh, options, task); });
     const py::dict report = describe_report(result.report);
     return py::make_tuple(std::make_shared<ModelHandle>(std::move(result.model), std::move(result.bytes)),
                           report);

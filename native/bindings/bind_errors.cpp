@@ -1,7 +1,6 @@
-#include "pfgeom/base/error.h"
-
 #include "bindings.h"
 #include "errors.h"
+#include "pfgeom/base/error.h"
 
 namespace py = pybind11;
 

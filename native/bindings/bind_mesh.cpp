@@ -1,19 +1,18 @@
+#include "arrays.h"
+#include "bindings.h"
+#include "job.h"
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/file.h"
 #include "pfgeom/mesh/file.h"
 #include "pfgeom/mesh/triangulate.h"
-
-#include "arrays.h"
-#include "bindings.h"
 
 namespace py = pybind11;
 
 namespace pfgeom::bindings {
 namespace {
 
-TriangleMesh read_unlocked(const std::string& path) {
-    const py::gil_scoped_release unlocked;
-    return read_mesh(path);
+py::tuple read_arrays(const std::string& path) {
+    return arrays_from(Job().run([=](const Task&) { return read_mesh(path); }));
 }
 
 void write_bytes(const std::string& path, const py::bytes& data) {
@@ -66,9 +65,7 @@ py::array triangulate_arrays(const Points& vertices, const Indices& corners, con
 }  // namespace
 
 void bind_mesh(py::module_& m) {
-    m.def(
-        "read_mesh", [](const std::string& path) { return arrays_from(read_unlocked(path)); },
-        py::arg("path"));
+    m.def("read_mesh", &read_arrays, py::arg("path"));
     m.def(
         "write_mesh",
         [](const std::string& path, const Points& vertices, const Indices& faces) {

@@ -1,15 +1,16 @@
-#include "pfgeom/base/parallel.h"
-#include "pfgeom/codec/codec.h"
-#include "pfgeom/compress/compress.h"
-
-#include <pybind11/stl.h>
-
 #include "arrays.h"
 #include "bindings.h"
 #include "describe.h"
 #include "errors.h"
 #include "job.h"
 #include "model_handle.h"
+#include "pfgeom/base/parallel.h"
+#include "pfgeom/codec/codec.h"
+#include "pfgeom/compress/compress.h"
+
+#include <pybind11/stl.h>
+
+#include <limits>
 
 namespace py = pybind11;
 
@@ -21,34 +22,33 @@ constexpr std::size_t kChunk = 1024;
 
 ModelPointer decode_bytes(const py::bytes& data) {
     const std::string_view view = data;
-    const py::gil_scoped_release unlocked;
-    std::vector<std::uint8_t> bytes(view.begin(), view.end());
-    Result<Model> model = decode(bytes);
-    if (!model) throw FormatFailure(model.status());
-    return std::make_shared<ModelHandle>(std::move(*model), std::move(bytes));
+    return Job().run([bytes = std::vector<std::uint8_t>(view.begin(), view.end())](const Task&) {
+        Result<Model> model = decode(bytes);
+        if (!model) throw FormatFailure(model.status());
+        return std::make_shared<ModelHandle>(std::move(*model), bytes);
+    });
 }
 
 py::bytes bytes_of(const ModelHandle& handle) {
     return py::bytes(reinterpret_cast<const char*>(handle.bytes().data()), handle.bytes().size());
 }
 
-py::tuple mesh_of_model(const ModelHandle& handle, std::optional<double> tolerance,
+py::tuple mesh_of_model(const ModelPointer& handle, std::optional<double> tolerance,
                         std::optional<int> resolution, int threads, py::object progress,
                         const CancelToken* cancel) {
     Job job(threads, std::move(progress), cancel);
-    return arrays_from(job.run([&](const Task& task) {
-        return to_mesh(handle.model(), MeshOptions{tolerance, resolution}, task);
+    return arrays_from(job.run([=](const Task& task) {
+        return to_mesh(handle->model(), MeshOptions{tolerance, resolution}, task);
     }));
 }
 
 /// query(field, point) for every row; `unknown` where a coordinate is not finite.
 template <class Value, class Query>
-std::vector<Value> query_all(const ModelHandle& handle, const Points& points, int threads, Value unknown,
+std::vector<Value> query_all(const ModelPointer& handle, const Points& points, int threads, Value unknown,
                              Query query) {
-    const std::vector<Vec3> rows = points_from(points);
     Job job(threads, py::none(), nullptr);
-    return job.run([&](const Task& task) {
-        const ModelField& field = handle.field();
+    return job.run([=, rows = points_from(points)](const Task& task) {
+        const ModelField& field = handle->field();
         std::vector<Value> values(rows.size());
         parallel_chunks(rows.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
@@ -60,31 +60,27 @@ std::vector<Value> query_all(const ModelHandle& handle, const Points& points, in
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-py::array values_at(const ModelHandle& handle, const Points& points, int threads) {
+py::array values_at(const ModelPointer& handle, const Points& points, int threads) {
     const auto values = query_all(handle, points, threads, kNaN,
                                   [](const ModelField& field, const Vec3& p) { return field.value(p); });
     return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-py::array gradients_at(const ModelHandle& handle, const Points& points, int threads) {
+py::array gradients_at(const ModelPointer& handle, const Points& points, int threads) {
     return array_from<double>(
         query_all(handle, points, threads, Vec3{kNaN, kNaN, kNaN},
                   [](const ModelField& field, const Vec3& p) { return field.gradient(p); }));
 }
 
-py::array contains_at(const ModelHandle& handle, const Points& points, int threads) {
+py::array contains_at(const ModelPointer& handle, const Points& points, int threads) {
     const auto inside = query_all(
         handle, points, threads, std::uint8_t{0},
         [](const ModelField& field, const Vec3& p) { return static_cast<std::uint8_t>(field.contains(p)); });
     return py::array_t<std::uint8_t>(static_cast<py::ssize_t>(inside.size()), inside.data());
 }
 
-py::array bounds_of(const ModelHandle& handle) {
-    Box box;
-    {
-        const py::gil_scoped_release unlocked;
-        box = handle.field().bounds();
-    }
+py::array bounds_of(const ModelPointer& handle) {
+    const Box box = Job().run([=](const Task&) { return handle->field().bounds(); });
     return array_from<double>(std::vector<Vec3>{box.lo, box.hi});
 }
 

@@ -1,9 +1,8 @@
-#include "pfgeom/report/deviation.h"
-
 #include "arrays.h"
 #include "bindings.h"
 #include "describe.h"
 #include "job.h"
+#include "pfgeom/report/deviation.h"
 
 namespace py = pybind11;
 
@@ -13,16 +12,16 @@ namespace {
 py::dict compare_arrays(const Points& vertices_a, const Indices& faces_a, const Points& vertices_b,
                         const Indices& faces_b, std::size_t samples, std::uint64_t seed, bool bound,
                         int threads, py::object progress, const CancelToken* cancel) {
-    const TriangleMesh a = mesh_from(vertices_a, faces_a);
-    const TriangleMesh b = mesh_from(vertices_b, faces_b);
+    const auto a = std::make_shared<const TriangleMesh>(mesh_from(vertices_a, faces_a));
+    const auto b = std::make_shared<const TriangleMesh>(mesh_from(vertices_b, faces_b));
     DeviationOptions options;
     options.samples = samples;
     options.seed = seed;
     options.bound = bound;
     Job job(threads, std::move(progress), cancel);
-    py::dict result =
-        describe_deviation(job.run([&](const Task& task) { return measure_deviation(a, b, options, task); }));
-    result["diagonal"] = diagonal(a);
+    py::dict result = describe_deviation(
+        job.run([=](const Task& task) { return measure_deviation(*a, *b, options, task); }));
+    result["diagonal"] = diagonal(*a);
     return result;
 }
 

@@ -46,7 +46,9 @@ std::uint64_t hash_of(const scenes::Scene& scene, const pfgeom::Task& task) {
     const auto model = pfgeom::decode(compressed.bytes);
     if (!model) std::exit(1);
     hash.add(pfgeom::to_mesh(*model, {}, task));
-    hash.add(pfgeom::to_mesh(*model, {.resolution = 48}, task));
+    pfgeom::MeshOptions finer;
+    finer.resolution = 48;
+    hash.add(pfgeom::to_mesh(*model, finer, task));
 
     const pfgeom::ModelField field(*model);
     for (const auto& v : scene.mesh.vertices) {

@@ -124,8 +124,8 @@ std::vector<Scene> all() {
     return {{"sphere", cube_grid(16, sphere), 1e-3},
             {"ellipsoid", cube_grid(16, ellipsoid), 1e-3},
             {"cube", cube_grid(4, [](const Vec3& p) { return p; }), 1e-3},
-            {"torus", torus(48, 24, 1.0, 0.35), 2e-3},
-            {"pebble", cube_grid(20, pebble), 2e-3},
+            {"torus", torus(40, 24, 1.0, 0.45), 5e-3},
+            {"pebble", cube_grid(16, pebble), 5e-3},
             {"saddle", saddle(20), 2e-3},
             {"archipelago", archipelago(), 5e-3}};
 }

@@ -65,7 +65,7 @@ class Walk {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size < 2) return 0;
-    const std::size_t count = data[1] * std::size_t{2};
+    const std::size_t count = data[1];
     const std::span<const std::uint8_t> stream(data + 2, size - 2);
     std::vector<std::uint32_t> values;
     pfgeom::EntropyCoder reader(stream);

@@ -1,9 +1,9 @@
 // Writes the seeds of the fuzz targets: make_fuzz_seeds FOLDER
+#include "codec/random_model.h"
 #include "pfgeom/codec/byte_writer.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/codec/header.h"
 
-#include "codec/random_model.h"
 #include <filesystem>
 #include <fstream>
 #include <iostream>

@@ -12,35 +12,46 @@ import pfgeom
 import pytest
 import shapes
 
-PROMISE = 0.1  # seconds from cancel to return
+PROMISE = 0.1  # seconds from the request to the return
 MOMENTS = 20
 
 
 @pytest.fixture(scope="module")
-def long_calls(long_mesh, torus_model):
+def long_calls(long_mesh, sphere_model):
     """Name -> a call of some seconds, compress of many; each takes progress and cancel."""
     return {
         "compress": lambda **options: pfgeom.compress(*long_mesh, tolerance=3e-4, **options),
-        "to_mesh": lambda **options: torus_model.to_mesh(resolution=512, **options),
-        "compare": lambda **options: pfgeom.compare(long_mesh, shapes.torus(), samples=4_000_000, **options),
+        "to_mesh": lambda **options: sphere_model.to_mesh(resolution=1024, **options),
+        "compare": lambda **options: pfgeom.compare(long_mesh, shapes.torus(), samples=1_000_000, **options),
     }
 
 
-def stopped_after(call, seconds: float) -> float | None:
-    """Cancel after that time; seconds from there to the return, or None if the call was faster."""
+class Stopwatch:
+    """Seconds since `start`: of the clock, or of the processor where that is less, as the machine may be busy."""
+
+    def start(self):
+        self._start = time.perf_counter(), time.process_time()
+
+    def seconds(self) -> float:
+        wall, processor = self._start
+        return min(time.perf_counter() - wall, time.process_time() - processor)
+
+
+def stopped_after(call, moment: float) -> float | None:
+    """Cancel at that moment; seconds from there to the return, or None if the call was faster."""
     token = pfgeom.CancelToken()
-    cancelled_at = []
+    watch = Stopwatch()
 
     def cancel():
-        cancelled_at.append(time.perf_counter())
+        watch.start()
         token.cancel()
 
-    timer = threading.Timer(seconds, cancel)
+    timer = threading.Timer(moment, cancel)
     timer.start()
     try:
-        call(cancel=token)
+        call(cancel=token, threads=1)
     except pfgeom.Cancelled:
-        return time.perf_counter() - cancelled_at[0]
+        return watch.seconds()
     finally:
         timer.cancel()
     return None
@@ -48,18 +59,11 @@ def stopped_after(call, seconds: float) -> float | None:
 
 @pytest.mark.parametrize("name", ["compress", "to_mesh", "compare"])
 def test_cancel_at_random_moments(long_calls, name):
-    """A moment counts as late when it is late three times: the machine may be busy with something else."""
     moments = random.Random(4)
-    stopped = 0
-    for _ in range(MOMENTS):
-        moment = moments.uniform(0, 0.8)
-        delay = stopped_after(long_calls[name], moment)
-        for _ in range(2):
-            if delay is not None and delay > PROMISE:
-                delay = stopped_after(long_calls[name], moment)
-        assert delay is None or delay <= PROMISE
-        stopped += delay is not None
-    assert stopped >= MOMENTS // 2
+    delays = [stopped_after(long_calls[name], moments.uniform(0, 0.8)) for _ in range(MOMENTS)]
+    stopped = [delay for delay in delays if delay is not None]
+    assert len(stopped) >= MOMENTS // 2
+    assert max(stopped) <= PROMISE
 
 
 def test_token_that_is_set_already(long_calls):
@@ -67,10 +71,11 @@ def test_token_that_is_set_already(long_calls):
     assert not token.cancelled
     token.cancel()
     assert token.cancelled
-    start = time.perf_counter()
+    watch = Stopwatch()
+    watch.start()
     with pytest.raises(pfgeom.Cancelled):
         long_calls["compress"](cancel=token)
-    assert time.perf_counter() - start < PROMISE
+    assert watch.seconds() <= PROMISE
 
 
 @pytest.mark.parametrize("name", ["compress", "to_mesh"])
@@ -93,25 +98,24 @@ def test_exception_in_progress_stops_the_call(long_calls, name):
     class Stop(Exception):
         pass
 
-    raised_at = []
+    watch = Stopwatch()
 
     def progress(fraction, stage):
-        raised_at.append(time.perf_counter())
+        watch.start()
         raise Stop(stage)
 
     with pytest.raises(Stop):
-        long_calls[name](progress=progress)
-    assert len(raised_at) == 1
-    assert time.perf_counter() - raised_at[0] < 2 * PROMISE
+        long_calls[name](progress=progress, threads=1)
+    assert watch.seconds() <= PROMISE
 
 
 @pytest.mark.parametrize("name", ["compress", "to_mesh"])
 def test_interrupt_stops_the_call(long_calls, name):
     """As Ctrl-C does. The caller's own token stays as it is."""
-    sent_at = []
+    watch = Stopwatch()
 
     def interrupt():
-        sent_at.append(time.perf_counter())
+        watch.start()
         signal.raise_signal(signal.SIGINT)
 
     token = pfgeom.CancelToken()
@@ -119,10 +123,10 @@ def test_interrupt_stops_the_call(long_calls, name):
     timer.start()
     try:
         with pytest.raises(KeyboardInterrupt):
-            long_calls[name](cancel=token)
+            long_calls[name](cancel=token, threads=1)
     finally:
         timer.cancel()
-    assert time.perf_counter() - sent_at[0] < 2 * PROMISE
+    assert watch.seconds() <= PROMISE
     assert not token.cancelled
 
 

@@ -1,7 +1,8 @@
 #include "pfgeom/codec/entropy.h"
 
+#include "pfgeom/base/reproducible.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -12,6 +13,8 @@ constexpr std::uint32_t kTop = 1U << 24;  // the range is kept at or above this
 
 EntropyCoder::EntropyCoder(std::span<const std::uint8_t> bytes) : decoding_(true), bytes_(bytes) {
     while (position_ < kLookAhead) code_ = (code_ << 8) | byte_at(position_++);
+    impossible_ = code_ == range_;
+    if (impossible_) --code_;
 }
 
 // Moves the top byte of low_ out. It is held back while a later carry could still change it. (No carry can
@@ -80,7 +83,7 @@ std::vector<std::uint8_t> EntropyCoder::finish() {
 }
 
 bool EntropyCoder::ended_cleanly() const {
-    if (exhausted() || position_ < bytes_.size()) return false;
+    if (impossible_ || exhausted() || position_ < bytes_.size()) return false;
     // finish() stops leaving out zero bytes only at a byte that is not zero, or after four.
     const bool shortest = position_ == bytes_.size() + kLookAhead || bytes_.back() != 0;
     std::uint32_t value = 0;  // the last 32 bits of the stream's value: the encoder's low_ plus code_
@@ -89,7 +92,7 @@ bool EntropyCoder::ended_cleanly() const {
 }
 
 double EntropyCoder::bits_so_far() const {
-    return 8.0 * static_cast<double>(bytes_so_far()) + 32 - std::log2(static_cast<double>(range_));
+    return 8.0 * static_cast<double>(bytes_so_far()) + 32 - reproducible_log2(static_cast<double>(range_));
 }
 
 }  // namespace pfgeom

@@ -64,7 +64,8 @@ class EntropyCoder {
     std::uint8_t cache_ = 0;   // encoder: the byte that a carry may still change
     std::size_t pending_ = 0;  // encoder: the cache and the 0xFF bytes after it
     std::vector<std::uint8_t> output_;
-    std::uint32_t code_ = 0;    // decoder: the stream's value above the encoder's low_
+    std::uint32_t code_ = 0;    // decoder: the stream's value above the encoder's low_, below range_
+    bool impossible_ = false;   // decoder: the stream begins as no encoder's does
     std::size_t position_ = 0;  // decoder
     std::span<const std::uint8_t> bytes_;
 };

@@ -228,6 +228,7 @@ bool code_head(EntropyCoder& coder, ContextMixer& mixer, HierarchyHead& head) {
     for (std::uint8_t& a : head.axes) a = static_cast<std::uint8_t>(mixer.code_uint(coder, a, kHead) & 255U);
     head.step_code = static_cast<std::uint8_t>(coder.code_raw(head.step_code, 8));
     head.ratio_code = static_cast<std::uint8_t>(mixer.code_int(coder, head.ratio_code - 74, kHead + 2) + 74);
+    head.shrink_code = static_cast<std::uint8_t>(coder.code_raw(head.shrink_code, 3));
     head.first_sheet =
         static_cast<std::uint8_t>(kFirstLevel + coder.code_raw(head.first_sheet - kFirstLevel, 2));
     return head.axes[0] > 0 && head.axes[1] > 0 && head.axes[2] > 0 && head.ratio_code >= 16;

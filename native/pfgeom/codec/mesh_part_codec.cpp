@@ -1,8 +1,8 @@
 #include "pfgeom/codec/mesh_part_codec.h"
 
-#include <limits>
-
 #include "pfgeom/codec/mesh_part_walk.h"
+
+#include <limits>
 
 namespace pfgeom {
 namespace {
@@ -20,7 +20,8 @@ MeshPart canonical(const MeshPart& part) {
     return {part.step_code, walk.positions(), std::move(walk.faces())};
 }
 
-FormatStatus code_mesh_part(EntropyCoder& coder, ContextMixer& mixer, MeshPart& part, std::size_t budget_bytes) {
+FormatStatus code_mesh_part(EntropyCoder& coder, ContextMixer& mixer, MeshPart& part,
+                            std::size_t budget_bytes) {
     part.step_code = mixer.code_int(coder, part.step_code, kStep);
     if (part.step_code < -kMaxStepCode || part.step_code > kMaxStepCode) return FormatStatus::bad_value;
     const std::size_t faces = mixer.code_uint(coder, static_cast<std::uint32_t>(part.faces.size()), kFaces);

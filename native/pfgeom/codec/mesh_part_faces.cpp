@@ -12,14 +12,17 @@ FacesLeft::FacesLeft(const std::vector<Triangle>& faces, std::size_t vertices)
     std::vector<std::int32_t> fill(first_.begin(), first_.end() - 1);
     for (std::size_t f = 0; f < faces.size(); ++f) {
         for (const std::int32_t v : faces[f]) {
-            at_vertex_[static_cast<std::size_t>(fill[static_cast<std::size_t>(v)]++)] = static_cast<std::int32_t>(f);
+            at_vertex_[static_cast<std::size_t>(fill[static_cast<std::size_t>(v)]++)] =
+                static_cast<std::int32_t>(f);
         }
     }
     last_ = std::move(fill);
 }
 
 FacesLeft::Found FacesLeft::at_edge(std::int32_t from, std::int32_t to, bool flipped) {
-    const auto size = [&](std::int32_t v) { return last_[static_cast<std::size_t>(v)] - first_[static_cast<std::size_t>(v)]; };
+    const auto size = [&](std::int32_t v) {
+        return last_[static_cast<std::size_t>(v)] - first_[static_cast<std::size_t>(v)];
+    };
     const auto around = static_cast<std::size_t>(size(from) <= size(to) ? from : to);
     forget_taken(around);
     Found found;

@@ -1,10 +1,10 @@
 // What the encoder of a mesh part looks up: which faces are left, and which of them has a given edge.
 #pragma once
 
+#include "pfgeom/base/triangle.h"
+
 #include <cstdint>
 #include <vector>
-
-#include "pfgeom/base/triangle.h"
 
 namespace pfgeom {
 
@@ -17,7 +17,8 @@ class FacesLeft {
         std::int32_t third = -1;  ///< its corner that is not on the edge
         bool flipped = false;     ///< it has the edge to -> from
     };
-    /// A face with the edge from -> to or to -> from, the lowest of those whose `flipped` is as wanted, if any.
+    /// A face with the edge from -> to or to -> from, the lowest of those whose `flipped` is as wanted, if
+    /// any.
     Found at_edge(std::int32_t from, std::int32_t to, bool flipped);
     /// The lowest face left, or -1.
     std::int32_t lowest();

@@ -6,7 +6,8 @@ namespace {
 // Beyond 126 degrees an angle says nothing about what comes next: the oldest gate is as good.
 constexpr int kWide = 406;
 
-// Rises with the angle from x to y in the plane with the given normal: 1 - cos up to 180 degrees, 3 + cos after.
+// Rises with the angle from x to y in the plane with the given normal: 1 - cos up to 180 degrees, 3 + cos
+// after.
 int pseudo_angle(const Vec3& x, const Vec3& y, const Vec3& normal) {
     const double lengths = std::sqrt(squared_norm(x) * squared_norm(y));
     if (!(lengths > 0)) return 0;
@@ -22,7 +23,8 @@ void Front::add_vertex(const GridPoint& p) {
     ends_.emplace_back();
 }
 
-int Front::wedge_angle(const Gate& gate, std::int32_t corner, std::int32_t other, std::int32_t neighbour) const {
+int Front::wedge_angle(const Gate& gate, std::int32_t corner, std::int32_t other,
+                       std::int32_t neighbour) const {
     const Vec3 normal = cross(at(gate.from) - at(gate.to), at(gate.apex) - at(gate.to));
     const Vec3 x = at(other) - at(corner), y = at(neighbour) - at(corner);
     return corner == gate.from ? pseudo_angle(x, y, normal) : pseudo_angle(y, x, normal);
@@ -99,9 +101,12 @@ void Front::close(std::int32_t node) {
     Node& n = nodes_[static_cast<std::size_t>(node)];
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
         const std::int32_t vertex = side == 0 ? n.gate.from : n.gate.to;
-        if (n.next[side] >= 0) nodes_[static_cast<std::size_t>(n.next[side])].previous[side] = n.previous[side];
-        if (n.previous[side] >= 0) nodes_[static_cast<std::size_t>(n.previous[side])].next[side] = n.next[side];
-        else ends_[static_cast<std::size_t>(vertex)].first[side] = n.next[side];
+        if (n.next[side] >= 0)
+            nodes_[static_cast<std::size_t>(n.next[side])].previous[side] = n.previous[side];
+        if (n.previous[side] >= 0)
+            nodes_[static_cast<std::size_t>(n.previous[side])].next[side] = n.next[side];
+        else
+            ends_[static_cast<std::size_t>(vertex)].first[side] = n.next[side];
     }
     n.serial = 0;
     unused_.push_back(node);
@@ -110,8 +115,10 @@ void Front::close(std::int32_t node) {
 // The face has the edge from -> to.
 void Front::edge(std::int32_t from, std::int32_t to, const Gate& opened) {
     const std::int32_t node = find(from, to);
-    if (node >= 0) close(node);
-    else open(opened);
+    if (node >= 0)
+        close(node);
+    else
+        open(opened);
 }
 
 void Front::seed(std::int32_t a, std::int32_t b, std::int32_t c) {

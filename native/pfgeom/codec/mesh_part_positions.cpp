@@ -8,7 +8,12 @@ namespace pfgeom {
 namespace {
 
 // Kinds of the mixer (128..191 are the mesh part's).
-enum Kind : std::uint32_t { kFree = 148, kAcross = 152, kSteep = 160, kLevel = 164 };  // each residual takes four
+enum Kind : std::uint32_t {
+    kFree = 148,
+    kAcross = 152,
+    kSteep = 160,
+    kLevel = 164
+};  // each residual takes four
 constexpr std::uint32_t kZero = 0, kSign = 1, kExponent = 2, kMantissa = 3;
 
 // log2(1 + x) in half octaves, x >= 0 in grid steps.
@@ -17,16 +22,18 @@ std::uint32_t half_octaves(double x) {
     return static_cast<std::uint32_t>(log2_sixteenths(static_cast<std::uint32_t>(sixteenths))) / 8;
 }
 
-// The coarsest lattice, of 2^level steps, that both coordinates lie on: fitters choose coarse ones where they can.
-constexpr int kLevels = 3;
+// The coarsest lattice, of 2^level steps, that both coordinates lie on: fitters choose coarse ones where they
+// can.
+constexpr int kLevels = 5;
 int level_of(std::int32_t u, std::int32_t v) {
     return std::countr_zero(static_cast<std::uint32_t>(u | v) | (1U << kLevels));
 }
 
 // The plane behind a gate, with the axis that is coded last.
 struct Frame2 {
-    Vec3 a, along, normal, outward;   // along, outward, normal: unit vectors; outward points away from the apex
-    double length = 0, height = 0;    // of the gate, and of the triangle behind over it
+    Vec3 a, along, normal,
+        outward;                    // along, outward, normal: unit vectors; outward points away from the apex
+    double length = 0, height = 0;  // of the gate, and of the triangle behind over it
     int steep = 2;
 
     Frame2(const Vec3& from, const Vec3& to, const Vec3& apex) : a(from) {
@@ -79,8 +86,8 @@ std::int32_t PositionCoder::code_residual(std::int32_t value, const Hint& hint) 
     std::uint32_t e = 0;
     for (; e < 29; ++e) {
         const std::uint32_t more = magnitude >> (e + 1) != 0 ? 1 : 0;
-        const std::array<std::uint32_t, 5> contexts{e, e * 64 + hint.scale, e * 64 + hint.recent, e * 4096 + joint,
-                                                    e * 64 + extra};
+        const std::array<std::uint32_t, 5> contexts{e, e * 64 + hint.scale, e * 64 + hint.recent,
+                                                    e * 4096 + joint, e * 64 + extra};
         if (mixer_.code(coder_, static_cast<int>(more), where(kExponent, e), contexts) == 0) break;
     }
     std::uint32_t result = 1;
@@ -89,7 +96,8 @@ std::int32_t PositionCoder::code_residual(std::int32_t value, const Hint& hint) 
         const std::uint32_t low = std::min(i, 3U);
         const std::uint32_t high = e - i <= 2 ? e * 4 + (result & 3U) : 128;
         const std::array<std::uint32_t, 3> contexts{low, high, 256 + high * 4 + low};
-        result = (result << 1) | static_cast<std::uint32_t>(mixer_.code(coder_, in, where(kMantissa, low), contexts));
+        result = (result << 1) |
+                 static_cast<std::uint32_t>(mixer_.code(coder_, in, where(kMantissa, low), contexts));
     }
     return negative ? -static_cast<std::int32_t>(result) : static_cast<std::int32_t>(result);
 }
@@ -98,7 +106,8 @@ int PositionCoder::code_level(int level, const std::array<int, 3>& around) {
     for (int i = 0; i < kLevels; ++i) {
         const auto coarser = std::count_if(around.begin(), around.end(), [&](int l) { return l > i; });
         const auto set = static_cast<std::uint32_t>(i), near = set * 4 + static_cast<std::uint32_t>(coarser);
-        const std::array<std::uint32_t, 3> contexts{set, near, near * 4 + static_cast<std::uint32_t>(around[0])};
+        const std::array<std::uint32_t, 3> contexts{set, near,
+                                                    near * 8 + static_cast<std::uint32_t>(around[0])};
         if (mixer_.code(coder_, level > i ? 1 : 0, {kLevel, set, 0}, contexts) == 0) return i;
     }
     return kLevels;
@@ -128,7 +137,8 @@ bool PositionCoder::code(const std::vector<GridPoint>& positions, const Gate& ga
     normal /= 3;
 
     const std::uint32_t scale = half_octaves(std::max(frame.length, frame.height));
-    const int level = code_level(level_of(p[u], p[v]), {level_of(a[u], a[v]), level_of(b[u], b[v]), level_of(d[u], d[v])});
+    const int level =
+        code_level(level_of(p[u], p[v]), {level_of(a[u], a[v]), level_of(b[u], b[v]), level_of(d[u], d[v])});
     const auto in_pitches = [&](std::uint32_t octaves) {
         return octaves - std::min(octaves, 2 * static_cast<std::uint32_t>(level));
     };
@@ -158,7 +168,8 @@ bool PositionCoder::code(const std::vector<GridPoint>& positions, const Gate& ga
         lever = frame.lever(on_plane);
     }
     const double bent = gate.bend * lever, gain = gain_;
-    const double predicted = std::clamp(height + gain * bent / slope, -1.0 * kMaxCoordinate, 1.0 * kMaxCoordinate);
+    const double predicted =
+        std::clamp(height + gain * bent / slope, -1.0 * kMaxCoordinate, 1.0 * kMaxCoordinate);
     const auto base = static_cast<std::int32_t>(std::floor(predicted + 0.5));
     const std::uint32_t extra = half_octaves(std::abs(across));
     p[w] = base + code_residual(p[w] - base, {kSteep, scale, normal, std::min(extra, 63U)});

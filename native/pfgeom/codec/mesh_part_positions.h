@@ -1,16 +1,17 @@
 // A vertex of the mesh part, predicted across a gate and coded in grid steps.
-// Source: Touma, Gotsman, "Triangle mesh compression", 1998 (parallelogram). Departures: the axis along which the
-// surface is steepest is coded last, given the two others and the plane behind the gate, so that its residual is
-// the small one; that plane is bent as the surface bent before; residual bits are mixed from many contexts.
+// Source: Touma, Gotsman, "Triangle mesh compression", 1998 (parallelogram). Departures: the axis along which
+// the surface is steepest is coded last, given the two others and the plane behind the gate, so that its
+// residual is the small one; that plane is bent as the surface bent before; residual bits are mixed from many
+// contexts.
 #pragma once
-
-#include <array>
-#include <cstdint>
-#include <vector>
 
 #include "pfgeom/codec/entropy.h"
 #include "pfgeom/codec/mesh_part_front.h"
 #include "pfgeom/codec/mixer.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
 
 namespace pfgeom {
 

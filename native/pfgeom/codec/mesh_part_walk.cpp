@@ -5,18 +5,27 @@
 namespace pfgeom {
 namespace {
 
-enum Kind : std::uint32_t { kSeedNew = 130, kReference = 132, kBorder = 134, kNear = 135, kFar = 136, kNew = 137,
-                            kFlipped = 138 };
+enum Kind : std::uint32_t {
+    kSeedNew = 130,
+    kReference = 132,
+    kBorder = 134,
+    kNear = 135,
+    kFar = 136,
+    kNew = 137,
+    kFlipped = 138
+};
 enum Border : std::uint8_t { kLeaves = 1, kArrives = 2 };
 
-// A byte pays for at most this many faces, so that a decoder can refuse a count before it allocates: a face takes
-// some 300 bytes of a decoder's memory, of the 16 KiB that it may use for each byte of a file. Only meshes with
-// next to no information (flat regular grids) come near it; zero bytes are then put between.
+// A byte pays for at most this many faces, so that a decoder can refuse a count before it allocates: a face
+// takes some 300 bytes of a decoder's memory, of the 16 KiB that it may use for each byte of a file. Only
+// meshes with next to no information (flat regular grids) come near it; zero bytes are then put between.
 constexpr std::size_t kFacesPerByte = 32, kFacesFree = 1024;
 
 const std::vector<Triangle> kNoFaces;
 
-std::uint32_t at_most(int value, int limit) { return static_cast<std::uint32_t>(std::clamp(value, 0, limit)); }
+std::uint32_t at_most(int value, int limit) {
+    return static_cast<std::uint32_t>(std::clamp(value, 0, limit));
+}
 
 // log2(x / y) in half octaves around 8, within 0 .. 15.
 std::uint32_t ratio(double x, double y) {
@@ -29,11 +38,11 @@ std::uint32_t ratio(double x, double y) {
 /// What the coding of a third vertex knows about its place.
 struct MeshPartWalk::Surroundings {
     Wedge near, far;
-    std::uint32_t near_angle, far_angle;        // in 32 and 16 steps, 32 and 16: none
-    std::uint32_t near_valence, far_valence;    // of the corners of the wedges
-    std::uint32_t closing;                      // length of the edge across the near wedge against the gate
-    std::uint32_t miss;                         // distance of the near vertex from the parallelogram's against the gate
-    std::uint32_t borders;                      // of the gate's two ends
+    std::uint32_t near_angle, far_angle;      // in 32 and 16 steps, 32 and 16: none
+    std::uint32_t near_valence, far_valence;  // of the corners of the wedges
+    std::uint32_t closing;                    // length of the edge across the near wedge against the gate
+    std::uint32_t miss;     // distance of the near vertex from the parallelogram's against the gate
+    std::uint32_t borders;  // of the gate's two ends
 
     Surroundings(const Front& front, const Gate& gate, const std::vector<std::uint8_t>& border_flags)
         : near(front.before(gate)), far(front.after(gate)) {
@@ -46,10 +55,13 @@ struct MeshPartWalk::Surroundings {
         far_angle = at_most(far.vertex < 0 ? 16 : far.angle / 64, 16);
         near_valence = at_most(front.valence(near_corner), 15);
         far_valence = at_most(front.valence(far_corner), 15);
-        borders = border_flags[static_cast<std::size_t>(gate.from)] * 4U + border_flags[static_cast<std::size_t>(gate.to)];
+        borders = border_flags[static_cast<std::size_t>(gate.from)] * 4U +
+                  border_flags[static_cast<std::size_t>(gate.to)];
         closing = miss = 15;
         if (near.vertex < 0) return;
-        const auto at = [&](std::int32_t v) { return to_vec(front.positions()[static_cast<std::size_t>(v)]); };
+        const auto at = [&](std::int32_t v) {
+            return to_vec(front.positions()[static_cast<std::size_t>(v)]);
+        };
         const Vec3 a = at(gate.from), b = at(gate.to), c = at(near.vertex);
         const double length = norm(b - a);
         closing = ratio(norm(c - at(far_corner)), length);
@@ -58,9 +70,12 @@ struct MeshPartWalk::Surroundings {
 };
 
 MeshPartWalk::MeshPartWalk(EntropyCoder& coder, ContextMixer& mixer, const MeshPart* written)
-    : coder_(coder), mixer_(mixer), written_(written),
+    : coder_(coder),
+      mixer_(mixer),
+      written_(written),
       left_(written ? written->faces : kNoFaces, written ? written->positions.size() : 0),
-      known_(written ? written->positions.size() : 0, -1), vertex_coder_(coder, mixer) {}
+      known_(written ? written->positions.size() : 0, -1),
+      vertex_coder_(coder, mixer) {}
 
 FormatStatus MeshPartWalk::run(std::size_t count, std::size_t budget_bytes) {
     if (count > kFacesFree + budget_bytes * kFacesPerByte) return FormatStatus::limit_exceeded;
@@ -99,7 +114,8 @@ bool MeshPartWalk::add_vertex(const Gate* gate, Corner& corner) {
 
 bool MeshPartWalk::code_reference(Corner& corner) {
     const auto known = static_cast<std::int32_t>(front_.positions().size());
-    const std::uint32_t age = mixer_.code_uint(coder_, static_cast<std::uint32_t>(known - 1 - corner.known), kReference);
+    const std::uint32_t age =
+        mixer_.code_uint(coder_, static_cast<std::uint32_t>(known - 1 - corner.known), kReference);
     if (age >= static_cast<std::uint32_t>(known)) return false;
     corner.known = known - 1 - static_cast<std::int32_t>(age);
     return true;
@@ -141,8 +157,11 @@ bool MeshPartWalk::code_third(const Surroundings& around, Corner& corner) {
     const std::uint32_t shape = around.closing * 16 + around.miss;
     if (around.near.vertex >= 0) {
         const std::uint32_t angle = around.near_angle;
-        const std::array<std::uint32_t, 6> contexts{angle, around.near_valence * 64 + angle, shape,
-                                                    around.miss * 64 + angle, around.far_angle * 64 + angle,
+        const std::array<std::uint32_t, 6> contexts{angle,
+                                                    around.near_valence * 64 + angle,
+                                                    shape,
+                                                    around.miss * 64 + angle,
+                                                    around.far_angle * 64 + angle,
                                                     around.borders * 16 + around.near_valence};
         if (is(kNear, corner.known == around.near.vertex, angle, contexts)) {
             corner.known = around.near.vertex;
@@ -188,10 +207,13 @@ bool MeshPartWalk::step(const Gate& gate) {
     const bool flipped = mixer_.code(coder_, found.flipped ? 1 : 0, {kFlipped, 0, 0}, context) != 0;
     if (corner.known < 0 && !add_vertex(&gate, corner)) return false;
     if (corner.known == gate.from || corner.known == gate.to) return false;
-    if (flipped) faces_.push_back({gate.to, gate.from, corner.known});
-    else faces_.push_back({gate.from, gate.to, corner.known});
+    if (flipped)
+        faces_.push_back({gate.to, gate.from, corner.known});
+    else
+        faces_.push_back({gate.from, gate.to, corner.known});
     const auto& positions = front_.positions();
-    const double bend = PositionCoder::bend(positions, gate, positions[static_cast<std::size_t>(corner.known)]);
+    const double bend =
+        PositionCoder::bend(positions, gate, positions[static_cast<std::size_t>(corner.known)]);
     front_.grow(gate, corner.known, flipped, bend);
     return true;
 }

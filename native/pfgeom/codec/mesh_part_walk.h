@@ -1,11 +1,9 @@
 // The walk over a mesh part, run by encoder and decoder alike: from gate to gate, a face at a time.
 // At each gate it is coded whether a face follows, and whether its third vertex is the neighbour across the
-// narrower wedge, the one across the wider, new, or any other one that is known already. The last makes handles,
-// splits and non-manifold edges and vertices one thing. Faces against their neighbours' direction are marked.
+// narrower wedge, the one across the wider, new, or any other one that is known already. The last makes
+// handles, splits and non-manifold edges and vertices one thing. Faces against their neighbours' direction
+// are marked.
 #pragma once
-
-#include <cstdint>
-#include <vector>
 
 #include "pfgeom/base/status.h"
 #include "pfgeom/codec/entropy.h"
@@ -14,6 +12,9 @@
 #include "pfgeom/codec/mesh_part_positions.h"
 #include "pfgeom/codec/mixer.h"
 #include "pfgeom/function/model.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace pfgeom {
 
@@ -50,11 +51,11 @@ class MeshPartWalk {
     ContextMixer& mixer_;
     const MeshPart* written_;
     FacesLeft left_;
-    std::vector<std::int32_t> known_;          // encoder: written vertex -> vertex of the walk, or -1
-    std::vector<std::int32_t> written_rows_;   // encoder: the inverse
+    std::vector<std::int32_t> known_;         // encoder: written vertex -> vertex of the walk, or -1
+    std::vector<std::int32_t> written_rows_;  // encoder: the inverse
     Front front_;
     PositionCoder vertex_coder_;
-    std::vector<std::uint8_t> borders_;        // of each vertex: kLeaves, kArrives
+    std::vector<std::uint8_t> borders_;  // of each vertex: kLeaves, kArrives
     std::vector<Triangle> faces_;
 };
 

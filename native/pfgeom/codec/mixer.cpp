@@ -1,9 +1,10 @@
 #include "pfgeom/codec/mixer.h"
 
+#include "pfgeom/base/reproducible.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -47,7 +48,7 @@ struct Tables {
             const int p = static_cast<int>(i) * 16 + 8;
             while (at < kStretchMax && squash[static_cast<std::size_t>(at + kStretchMax) / 4] < p) at += 4;
             stretch[i] = static_cast<std::int16_t>(at);
-            cost[i] = 12 - std::log2(static_cast<double>(i) + 0.5);  // statistics only
+            cost[i] = 12 - reproducible_log2(static_cast<double>(i) + 0.5);  // statistics only
         }
         for (int n = 0; n <= static_cast<int>(kSlowest); ++n) {
             step[static_cast<std::size_t>(n)] = 131072 / std::min(2 * n + 3, 2 * static_cast<int>(kSlowest));

@@ -160,6 +160,7 @@ class Compressor {
         const TriangleMesh mesh = to_mesh(*first, {}, quiet(task_, task_.threads));
         task_.report(0.96, "measure");
         DeviationOptions options;
+        options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, options.samples);
         if (options_.metric == Metric::max) options.certify_below = tolerance_;
         result_.report.deviation = measure_deviation(prepared_.mesh, mesh, options, quiet(task_, task_.threads));
         const Deviation& d = result_.report.deviation;

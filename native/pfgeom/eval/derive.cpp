@@ -227,6 +227,7 @@ Level empty_level(const HierarchyHead& head, int depth) {
     level.depth = depth;
     level.radius = kSupport * spacing(depth);
     level.step = exp2_eighths(-int{head.step_code});
+    level.towards_zero = head.shrink_code / 16.0;
     const double ratio = head.ratio_code / 64.0;
     for (int d = 7; d < depth; ++d) level.step *= ratio;
     for (int d = depth; d < 7; ++d) level.step /= ratio;

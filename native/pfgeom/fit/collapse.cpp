@@ -1,10 +1,10 @@
 #include "pfgeom/fit/collapse.h"
 
+#include "pfgeom/fit/symmetric3.h"
+
 #include <algorithm>
 #include <limits>
 #include <queue>
-
-#include "pfgeom/fit/symmetric3.h"
 
 namespace pfgeom {
 namespace {
@@ -63,8 +63,13 @@ std::vector<PlaneQuadric> quadrics_of(const CollapseMesh& mesh) {
 class Collapser {
   public:
     Collapser(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task)
-        : mesh_(mesh), error_(error), limits_(limits), task_(task), quadrics_(quadrics_of(mesh)),
-          moved_(mesh.vertex_count(), 0), changed_(mesh.vertex_count(), 0) {}
+        : mesh_(mesh),
+          error_(error),
+          limits_(limits),
+          task_(task),
+          quadrics_(quadrics_of(mesh)),
+          moved_(mesh.vertex_count(), 0),
+          changed_(mesh.vertex_count(), 0) {}
     void run();
 
   private:
@@ -109,7 +114,7 @@ double Collapser::limit() const {
 double Collapser::length_cost(std::int32_t u, std::int32_t v) const {
     const double share = 0.02 * norm(mesh_.point(u) - mesh_.point(v)) / limits_.size;
     if (limits_.metric == Metric::max) return share * limits_.forward;
-    return share * 1e-3 * limits_.forward * limits_.forward * error_.total_weight() / 1e3;
+    return 1e-7 * share * limits_.forward * limits_.forward * error_.total_weight();
 }
 
 void Collapser::propose(std::int32_t u, std::int32_t v) {
@@ -117,7 +122,8 @@ void Collapser::propose(std::int32_t u, std::int32_t v) {
     q += quadrics_[static_cast<std::size_t>(v)];
     const double rest = q(q.least((mesh_.point(u) + mesh_.point(v)) * 0.5));
     // Both in the unit of forward(): the quadrics' weights are doubled areas, counted at three corners.
-    const double estimate = limits_.metric == Metric::max ? std::sqrt(rest / std::max(q.weight, 1e-300)) : rest / 6;
+    const double estimate =
+        limits_.metric == Metric::max ? std::sqrt(rest / std::max(q.weight, 1e-300)) : rest / 6;
     queue_.push({estimate + length_cost(u, v), u, v, clock_, false, {}});
 }
 
@@ -181,11 +187,13 @@ void Collapser::run() {
 
 }  // namespace
 
-void collapse_edges(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task) {
+void collapse_edges(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits,
+                    const Task& task) {
     Collapser(mesh, error, limits, task).run();
 }
 
-void relax_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task) {
+void relax_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits,
+                    const Task& task) {
     Patch patch;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const auto v = static_cast<std::int32_t>(i);

@@ -1,7 +1,8 @@
 // Greedy edge collapses: quadrics propose the place of the new vertex, the true two-sided error decides.
-// Source: Garland, Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997. Departures: the
-// order and the limit are those of the true error; where the quadrics' place is not good enough, the vertex is
-// fitted to the samples of the original surface; between rounds of collapses all vertices are fitted so.
+// Source: Garland, Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997. Departures:
+// the order and the limit are those of the true error; where the quadrics' place is not good enough, the
+// vertex is fitted to the samples of the original surface; between rounds of collapses all vertices are
+// fitted so.
 #pragma once
 
 #include "pfgeom/base/task.h"

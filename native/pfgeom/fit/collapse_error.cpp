@@ -1,9 +1,9 @@
 #include "pfgeom/fit/collapse_error.h"
 
+#include "pfgeom/fit/symmetric3.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "pfgeom/fit/symmetric3.h"
 
 namespace pfgeom {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // An edge or face is divided into at most this many parts along each side.
 constexpr int kMostParts = 24;
-// The search for the largest distance of a triangle ends in parts smaller than kFinest tolerances, and where no
-// more than kHarmless tolerances can come out.
+// The search for the largest distance of a triangle ends in parts smaller than kFinest tolerances, and where
+// no more than kHarmless tolerances can come out.
 constexpr double kFinest = 0.5, kHarmless = 0.8;
 
 int parts(double length, double spacing) {
@@ -20,7 +20,8 @@ int parts(double length, double spacing) {
 }
 
 double longest(const std::array<Vec3, 3>& t) {
-    return std::sqrt(std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])}));
+    return std::sqrt(
+        std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])}));
 }
 
 struct Nearest {
@@ -52,13 +53,19 @@ double weight_of_corner(const std::array<Vec3, 3>& t, const Vec3& q) {
 
 // Row of face f in patch.after, where its samples most likely go.
 std::size_t row_of(const Patch& patch, std::int32_t f) {
-    return static_cast<std::size_t>(std::find(patch.after.begin(), patch.after.end(), f) - patch.after.begin());
+    return static_cast<std::size_t>(std::find(patch.after.begin(), patch.after.end(), f) -
+                                    patch.after.begin());
 }
 
 }  // namespace
 
-CollapseError::CollapseError(const TriangleMesh& original, Metric metric, double tolerance, double spacing)
-    : metric_(metric), tolerance_(tolerance), spacing_(spacing), bvh_(original), first_(original.faces.size(), -1) {
+CollapseError::CollapseError(const TriangleMesh& original, Metric metric, double tolerance, double spacing,
+                             const Task& task)
+    : metric_(metric),
+      tolerance_(tolerance),
+      spacing_(spacing),
+      bvh_(original, task),
+      first_(original.faces.size(), -1) {
     sample_faces(original, spacing);
     sample_edges(original, spacing);
 }
@@ -98,7 +105,8 @@ void CollapseError::sample_edges(const TriangleMesh& mesh, double spacing) {
             const Vec3& a = mesh.vertices[static_cast<std::size_t>(mesh.faces[f][k])];
             const Vec3& b = mesh.vertices[static_cast<std::size_t>(mesh.faces[f][(k + 1) % 3])];
             const int n = parts(norm(b - a), spacing);
-            for (int i = 1; i < n; ++i) add(a + (b - a) * (static_cast<double>(i) / n), 0, static_cast<std::int32_t>(f));
+            for (int i = 1; i < n; ++i)
+                add(a + (b - a) * (static_cast<double>(i) / n), 0, static_cast<std::int32_t>(f));
         }
     }
 }
@@ -109,31 +117,38 @@ double CollapseError::forward(const Patch& patch, double limit) const {
     double cost = 0;
     for (const std::int32_t f : patch.before) {
         std::size_t likely = row_of(patch, f);
-        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0; s = samples_[static_cast<std::size_t>(s)].next) {
+        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
+             s = samples_[static_cast<std::size_t>(s)].next) {
             const Sample& sample = samples_[static_cast<std::size_t>(s)];
             const Nearest found = nearest(sample.p, patch, likely, by_max ? cost : -1);
             likely = found.triangle;
             if (found.squared > cap) return kInfinity;
-            if (by_max) cost = std::max(cost, found.squared);
-            else cost += sample.weight * (found.squared - sample.squared);
+            if (by_max)
+                cost = std::max(cost, found.squared);
+            else
+                cost += sample.weight * (found.squared - sample.squared);
         }
         if (!by_max && cost > limit) return kInfinity;
     }
     return by_max ? std::sqrt(cost) : cost;
 }
 
-// Edges of the moving vertex that one triangle of the patch has: there nothing holds the surface back.
+// The moving vertex and its edges: they stick out furthest. Where only one triangle of the patch has an edge nothing
+// else holds the surface back, and it is looked at closely.
 double CollapseError::rims(const Patch& patch, double limit) const {
     double worst = 0;
     for (std::size_t row = 0; row < patch.triangles.size(); ++row) {
         for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) {
             const Vec3 &p = patch.triangles[row][0], &q = patch.triangles[row][k];
             const auto uses = [&](const std::array<Vec3, 3>& t) { return t[1] == q || t[2] == q; };
-            if (std::count_if(patch.triangles.begin(), patch.triangles.end(), uses) != 1) continue;
-            const int n = static_cast<int>(std::min(std::ceil(norm(q - p) / tolerance_), 100.0));
+            const bool rim = std::count_if(patch.triangles.begin(), patch.triangles.end(), uses) == 1;
+            if (!rim && k == 2) continue;  // another triangle's first edge
+            const double close = std::ceil(norm(q - p) / (rim ? tolerance_ : 4 * tolerance_));
+            const int n = static_cast<int>(std::min(close, rim ? 100.0 : 8.0));
             std::int32_t hint = -1;
             for (int i = 0; i < n; ++i) {
-                const ClosestPoint found = bvh_.closest(p + (q - p) * (static_cast<double>(i) / n), limit, hint);
+                const Vec3 at = p + (q - p) * (static_cast<double>(i) / n);
+                const ClosestPoint found = bvh_.closest(at, limit, hint);
                 if (found.face < 0) return kInfinity;
                 worst = std::max(worst, found.squared_distance);
                 hint = found.face;
@@ -144,31 +159,37 @@ double CollapseError::rims(const Patch& patch, double limit) const {
 }
 
 // Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface they
-// change far more slowly, and kSlope takes what was missed on the test meshes to below a percent of the limit.
-double CollapseError::backward(const Patch& patch, double limit) const {
-    double worst = rims(patch, limit);
-    if (worst > limit) return kInfinity;
-    std::vector<std::array<Vec3, 3>> stack;
-    for (std::size_t row = 0; row < patch.triangles.size(); ++row) {
-        stack.push_back(patch.triangles[row]);
-        const std::int32_t s = first_[static_cast<std::size_t>(patch.after[row])];
-        std::int32_t hint = s >= 0 ? samples_[static_cast<std::size_t>(s)].origin : -1;
-        while (!stack.empty()) {
-            const auto [a, b, c] = stack.back();
-            stack.pop_back();
-            const Vec3 middle = (a + b + c) / 3;
-            const ClosestPoint found = bvh_.closest(middle, limit, hint);
-            if (found.face < 0) return kInfinity;
-            hint = found.face;
-            const double distance = std::sqrt(found.squared_distance);
-            worst = std::max(worst, distance);
-            const double reach = std::sqrt(std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
-            if (reach < kFinest * tolerance_ || distance + slope_ * reach <= std::max(worst, kHarmless * tolerance_)) continue;
-            const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
-            stack.insert(stack.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        }
+// change far more slowly, as slope_ has it.
+double CollapseError::farthest(const std::array<Vec3, 3>& triangle, double limit, std::int32_t hint) const {
+    const double finest = std::max(kFinest * tolerance_, longest(triangle) / parts_);
+    double worst = 0;
+    std::vector<std::array<Vec3, 3>> parts_left{triangle};
+    while (!parts_left.empty()) {
+        const auto [a, b, c] = parts_left.back();
+        parts_left.pop_back();
+        const Vec3 middle = (a + b + c) / 3;
+        const ClosestPoint found = bvh_.closest(middle, limit, hint);
+        if (found.face < 0) return kInfinity;
+        hint = found.face;
+        const double distance = std::sqrt(found.squared_distance);
+        worst = std::max(worst, distance);
+        const double reach = std::sqrt(
+            std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
+        if (reach < finest || distance + slope_ * reach <= std::max(worst, kHarmless * tolerance_)) continue;
+        const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
+        parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
     return worst;
+}
+
+double CollapseError::backward(const Patch& patch, double limit) const {
+    double worst = rims(patch, limit);
+    for (std::size_t row = 0; row < patch.triangles.size() && worst <= limit; ++row) {
+        const std::int32_t s = first_[static_cast<std::size_t>(patch.after[row])];
+        const std::int32_t hint = s >= 0 ? samples_[static_cast<std::size_t>(s)].origin : -1;
+        worst = std::max(worst, farthest(patch.triangles[row], limit, hint));
+    }
+    return worst <= limit ? worst : kInfinity;
 }
 
 // Minimises Σ w (d - λ e·δ)² over the move δ of the vertex: d is a sample's distance, e its direction, λ the
@@ -179,7 +200,8 @@ Vec3 CollapseError::fitted(const Patch& patch) const {
     double trace = 0;
     for (const std::int32_t f : patch.before) {
         std::size_t likely = row_of(patch, f);
-        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0; s = samples_[static_cast<std::size_t>(s)].next) {
+        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
+             s = samples_[static_cast<std::size_t>(s)].next) {
             const Sample& sample = samples_[static_cast<std::size_t>(s)];
             const Nearest found = nearest(sample.p, patch, likely, -1);
             likely = found.triangle;

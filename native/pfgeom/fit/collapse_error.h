@@ -1,34 +1,40 @@
-// The true two-sided error of a mesh that changes patch by patch. Samples of the original surface live on the face
-// of the current mesh that they were found closest to; a patch takes over the samples of the faces that it
-// replaces. The other way, points of the new triangles look for the original surface in its hierarchy of boxes.
-// Source: Klein, Liebich, Strasser, "Mesh reduction with error control", 1996. Departures: samples instead of
-// facets, both directions, and the moving vertex is fitted to the samples.
+// The true two-sided error of a mesh that changes patch by patch. Samples of the original surface live on the
+// face of the current mesh that they were found closest to; a patch takes over the samples of the faces that
+// it replaces. The other way, points of the new triangles look for the original surface in its hierarchy of
+// boxes. Source: Klein, Liebich, Strasser, "Mesh reduction with error control", 1996. Departures: samples
+// instead of facets, both directions, and the moving vertex is fitted to the samples.
 #pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/fit/collapse_mesh.h"
+#include "pfgeom/function/model.h"
+#include "pfgeom/mesh/bvh.h"
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "pfgeom/fit/collapse_mesh.h"
-#include "pfgeom/function/model.h"
-#include "pfgeom/mesh/bvh.h"
-
 namespace pfgeom {
 
 class CollapseError {
   public:
-    /// `tolerance`: errors well below it are not measured out. `spacing`: of the samples on larger faces and edges.
-    CollapseError(const TriangleMesh& original, Metric metric, double tolerance, double spacing);
+    /// `tolerance`: errors well below it are not measured out. `spacing`: of the samples on larger faces and
+    /// edges.
+    CollapseError(const TriangleMesh& original, Metric metric, double tolerance, double spacing,
+                  const Task& task);
 
-    /// What a patch costs: metric max: the largest distance of its samples; rms: the rise of the weighted sum of
-    /// their squares. Infinite if it is over `limit` (then it is not measured out).
+    /// What a patch costs: metric max: the largest distance of its samples; rms: the rise of the weighted sum
+    /// of their squares. Infinite if it is over `limit` (then it is not measured out).
     double forward(const Patch& patch, double limit) const;
     /// Largest distance of the new triangles from the original surface; infinite if it is over `limit`.
     double backward(const Patch& patch, double limit) const;
     /// A better place for the moving vertex: one step of least squares from its place now.
     Vec3 fitted(const Patch& patch) const;
-    /// How fast the distance to the original is taken to change over a new triangle: 1 is safe and slow.
-    void assume_slope(double slope) { slope_ = slope; }
+    /// From now on backward() looks closely, at several times the cost.
+    void measure_finely() {
+        slope_ = 0.5;
+        parts_ = 24;
+    }
     /// Hands the samples over.
     void commit(const Patch& patch);
 
@@ -39,11 +45,12 @@ class CollapseError {
   private:
     struct Sample {
         Vec3 p;
-        double weight;          // area that it stands for
-        double squared = 0;     // distance to the current mesh
-        std::int32_t next = -1; // of the same face
-        std::int32_t origin;    // face of the original
+        double weight;           // area that it stands for
+        double squared = 0;      // distance to the current mesh
+        std::int32_t next = -1;  // of the same face
+        std::int32_t origin;     // face of the original
     };
+    double farthest(const std::array<Vec3, 3>& triangle, double limit, std::int32_t hint) const;
     double rims(const Patch& patch, double limit) const;
     void add(const Vec3& p, double weight, std::int32_t face);
     void sample_edges(const TriangleMesh& mesh, double spacing);
@@ -51,7 +58,10 @@ class CollapseError {
 
     Metric metric_;
     double tolerance_, spacing_;
-    double slope_ = 0.13;  // of 0.1 .. 0.5: misses a few percent that the last, finer pass mends, in a third of the time
+    // How fast distances are taken to change over a new triangle (1 is safe), and into how many parts a side of it
+    // is divided at most. What these values miss is mended at the end, in a third of the time.
+    double slope_ = 0.13;
+    int parts_ = 10;
     Bvh bvh_;
     std::vector<Sample> samples_;
     std::vector<std::int32_t> first_;  // of each face: its samples

@@ -5,7 +5,9 @@
 namespace pfgeom {
 namespace {
 
-bool has(const Triangle& t, std::int32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+bool has(const Triangle& t, std::int32_t v) {
+    return t[0] == v || t[1] == v || t[2] == v;
+}
 
 // The corners of t from v on, in their cyclic order.
 std::array<std::int32_t, 3> from_corner(const Triangle& t, std::int32_t v) {
@@ -14,14 +16,16 @@ std::array<std::int32_t, 3> from_corner(const Triangle& t, std::int32_t v) {
     return {t[2], t[0], t[1]};
 }
 
-Vec3 doubled_area(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+Vec3 doubled_area(const std::array<Vec3, 3>& t) {
+    return cross(t[1] - t[0], t[2] - t[0]);
+}
 
 double longest_squared(const std::array<Vec3, 3>& t) {
     return std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])});
 }
 
-// A face may turn by up to 78 degrees at once, and become flatter than kFlattest (its height over its longest edge)
-// only if it was flatter before: else it would be folded over by the next rounding to the grid.
+// A face may turn by up to 78 degrees at once, and become flatter than kFlattest (its height over its longest
+// edge) only if it was flatter before: else it would be folded over by the next rounding to the grid.
 constexpr double kLeastCosine = 0.2, kFlattest = 0.02;
 
 }  // namespace
@@ -29,7 +33,8 @@ constexpr double kLeastCosine = 0.2, kFlattest = 0.02;
 CollapseMesh::CollapseMesh(const TriangleMesh& mesh)
     : points_(mesh.vertices), faces_(mesh.faces), at_(mesh.vertices.size()), alive_(mesh.faces.size()) {
     for (std::size_t f = 0; f < faces_.size(); ++f) {
-        for (const std::int32_t v : faces_[f]) at_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(f));
+        for (const std::int32_t v : faces_[f])
+            at_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(f));
     }
 }
 

@@ -1,20 +1,21 @@
-// A triangle soup that edge collapses thin out: corners of faces, and the faces at each vertex. No half-edges, so
-// that edges with any number of faces and vertices with any number of fans are nothing special.
+// A triangle soup that edge collapses thin out: corners of faces, and the faces at each vertex. No
+// half-edges, so that edges with any number of faces and vertices with any number of fans are nothing
+// special.
 #pragma once
+
+#include "pfgeom/mesh/triangle_mesh.h"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "pfgeom/mesh/triangle_mesh.h"
-
 namespace pfgeom {
 
 /// What an operation would do: the faces around one vertex at its new place, instead of the faces before.
 struct Patch {
-    std::vector<std::int32_t> before;             ///< faces whose surface is replaced
-    std::vector<std::int32_t> after;              ///< those of them that stay
-    std::vector<std::array<Vec3, 3>> triangles;   ///< of each of `after`; corner 0 is the moving vertex
+    std::vector<std::int32_t> before;            ///< faces whose surface is replaced
+    std::vector<std::int32_t> after;             ///< those of them that stay
+    std::vector<std::array<Vec3, 3>> triangles;  ///< of each of `after`; corner 0 is the moving vertex
     void move_to(const Vec3& p) {
         for (auto& t : triangles) t[0] = p;
     }
@@ -26,10 +27,14 @@ class CollapseMesh {
 
     const Vec3& point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
     const Triangle& face(std::int32_t f) const { return faces_[static_cast<std::size_t>(f)]; }
-    const std::vector<std::int32_t>& faces_at(std::int32_t v) const { return at_[static_cast<std::size_t>(v)]; }
+    const std::vector<std::int32_t>& faces_at(std::int32_t v) const {
+        return at_[static_cast<std::size_t>(v)];
+    }
     std::size_t vertex_count() const { return points_.size(); }
     std::size_t face_count() const { return alive_; }
-    std::array<Vec3, 3> corners(std::int32_t f) const { return {point(face(f)[0]), point(face(f)[1]), point(face(f)[2])}; }
+    std::array<Vec3, 3> corners(std::int32_t f) const {
+        return {point(face(f)[0]), point(face(f)[1]), point(face(f)[2])};
+    }
 
     /// Every edge once, lower vertex first, in rising order.
     std::vector<std::array<std::int32_t, 2>> edges() const;

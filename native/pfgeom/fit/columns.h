@@ -5,6 +5,7 @@
 #include "pfgeom/function/model.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pfgeom {
@@ -34,6 +35,10 @@ struct Columns {
     std::vector<std::uint32_t> first;  ///< #C + 1
     std::vector<Entry> entries;
     std::vector<double> energy;  ///< Σ slope², 0 where hardly any sample lies: left alone
+
+    std::span<const Entry> of(std::size_t i) const {
+        return std::span(entries).subspan(first[i], first[i + 1] - first[i]);
+    }
 };
 
 Columns make_columns(const Level& level, const LevelSamples& samples, const Task& task);

@@ -9,10 +9,10 @@ namespace pfgeom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMendingRounds = 4;
+constexpr int kMendingRounds = 6;
 // A coarser lattice must leave some of the limit to the neighbours.
-constexpr double kSlack = 0.93;
-constexpr int kCoarsest = 3;  // lattices of 2^3 steps
+constexpr double kSlack = 0.92;
+constexpr int kCoarsest = 5;  // lattices of 2^5 steps
 // Coordinates stay below 2^26, well within what the codec takes.
 constexpr int kFinestCode = -8 * 26;
 
@@ -39,15 +39,15 @@ class Snapper {
 
     void snap(std::int32_t v, double limit) {
         const Vec3 normal = normal_at(mesh_, v);
-        static const int LV = getenv("LV") ? atoi(getenv("LV")) : 0xf; for (int level = kCoarsest; level >= 0; --level) { if (!((LV >> level) & 1)) continue;
+        for (int level = kCoarsest; level >= 0; --level) {
             if (try_level(v, normal, level, level > 0 ? kSlack * limit : limit)) return;
         }
         take_least_evil(v);
     }
 
-    /// Measures finely; moves what is over the limit, and its neighbours, from grid point to grid point while that
-    /// makes the worst better.
-    void mend(double limit, const Task& task) {
+    /// Measures finely; moves what is over the limit, and its neighbours, from grid point to grid point while
+    /// that makes the worst better.
+    bool mend(double limit, const Task& task) {
         std::vector<std::int32_t> open(mesh_.vertex_count());
         std::iota(open.begin(), open.end(), 0);
         for (int round = 0; round < kMendingRounds && !open.empty(); ++round) {
@@ -61,12 +61,14 @@ class Snapper {
             }
             open = std::move(failed);
         }
+        return open.empty();
     }
 
   private:
     bool holds(std::int32_t v, double limit) {
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
-        return error_.forward(patch_, limit) <= limit && error_.backward(patch_, limits_.backward) < kInfinity;
+        return error_.forward(patch_, limit) <= limit &&
+               error_.backward(patch_, limits_.backward) < kInfinity;
     }
     double cost(std::int32_t v, const GridPoint& q, double limit) {
         mesh_.patch_of_move(v, grid_.point(q), patch_);
@@ -79,7 +81,8 @@ class Snapper {
         return true;
     }
 
-    // The lattice point next to the vertex, at the height above it where the surface is, and one step to each side.
+    // The lattice point next to the vertex, at the height above it where the surface is, and one step to each
+    // side.
     bool try_level(std::int32_t v, const Vec3& normal, int level, double limit) {
         const Vec3 p = mesh_.point(v);
         GridPoint q = grid_.nearest(p);
@@ -87,11 +90,14 @@ class Snapper {
         double slide = 0;
         for (const std::size_t axis : {(w + 1) % 3, (w + 2) % 3}) {
             const std::int32_t pitch = 1 << level;
-            q[axis] = static_cast<std::int32_t>(std::floor(static_cast<double>(q[axis]) / pitch + 0.5)) * pitch;
-            slide += normal[static_cast<int>(axis)] * (grid_.point(q)[static_cast<int>(axis)] - p[static_cast<int>(axis)]);
+            q[axis] =
+                static_cast<std::int32_t>(std::floor(static_cast<double>(q[axis]) / pitch + 0.5)) * pitch;
+            slide += normal[static_cast<int>(axis)] *
+                     (grid_.point(q)[static_cast<int>(axis)] - p[static_cast<int>(axis)]);
         }
         Vec3 on_surface = p;
-        if (normal[static_cast<int>(w)] != 0) on_surface[static_cast<int>(w)] -= slide / normal[static_cast<int>(w)];
+        if (normal[static_cast<int>(w)] != 0)
+            on_surface[static_cast<int>(w)] -= slide / normal[static_cast<int>(w)];
         const std::int32_t height = grid_.nearest(on_surface)[w];
         GridPoint best{};
         double least = limit;
@@ -106,23 +112,28 @@ class Snapper {
         }
         if (!found) return false;
         mesh_.patch_of_move(v, grid_.point(best), patch_);
-        return error_.backward(patch_, limits_.backward * limit / limits_.forward) < kInfinity && take(v, best);
+        return error_.backward(patch_, limits_.backward * limit / limits_.forward) < kInfinity &&
+               take(v, best);
     }
 
     // Nothing near the vertex keeps the limit now: the least evil, until its neighbours have come onto the grid.
+    // What is near: around its place, and around the one that would fit best.
     void take_least_evil(std::int32_t v) {
-        const GridPoint middle = grid_.nearest(mesh_.point(v));
-        GridPoint best = middle;
+        mesh_.patch_of_move(v, mesh_.point(v), patch_);
+        const Vec3 fitted = error_.fitted(patch_);
+        GridPoint best = grid_.nearest(mesh_.point(v));
         double least = kInfinity;
-        for (std::int32_t i = 0; i < 27; ++i) {
-            const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
-            double c = cost(v, q, least);
-            if (!(c < least)) continue;
-            const double backward = error_.backward(patch_, std::min(least, 3 * limits_.backward));
-            if (limits_.metric == Metric::max) c = std::max(c, backward);
-            if (!(c < least)) continue;
-            least = c;
-            best = q;
+        for (const GridPoint& middle : {best, grid_.nearest(fitted)}) {
+            for (std::int32_t i = 0; i < 27; ++i) {
+                const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
+                double c = cost(v, q, least);
+                if (!(c < least)) continue;
+                const double backward = error_.backward(patch_, std::min(least, 3 * limits_.backward));
+                if (limits_.metric == Metric::max) c = std::max(c, backward);
+                if (!(c < least)) continue;
+                least = c;
+                best = q;
+            }
         }
         take(v, best);
     }
@@ -138,7 +149,8 @@ class Snapper {
 
 GridPoint Grid::nearest(const Vec3& p) const {
     const Vec3 q = frame.to_local(p) / exp2_eighths(step_code);
-    return {static_cast<std::int32_t>(std::floor(q.x + 0.5)), static_cast<std::int32_t>(std::floor(q.y + 0.5)),
+    return {static_cast<std::int32_t>(std::floor(q.x + 0.5)),
+            static_cast<std::int32_t>(std::floor(q.y + 0.5)),
             static_cast<std::int32_t>(std::floor(q.z + 0.5))};
 }
 
@@ -153,11 +165,12 @@ Grid Grid::around(const Box& box, double step) {
     return grid;
 }
 
-void snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
+bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
                    const Task& task) {
     Snapper snapper(mesh, error, limits, grid);
     std::size_t left = 0;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) left += mesh.faces_at(static_cast<std::int32_t>(v)).empty() ? 0 : 1;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+        left += mesh.faces_at(static_cast<std::int32_t>(v)).empty() ? 0 : 1;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const auto v = static_cast<std::int32_t>(i);
         if (mesh.faces_at(v).empty()) continue;
@@ -169,9 +182,9 @@ void snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimit
         snapper.snap(v, limit);
         --left;
     }
-    if (limits.metric != Metric::max) return;
-    error.assume_slope(0.5);
-    snapper.mend(limits.forward, task);
+    if (limits.metric != Metric::max) return true;
+    error.measure_finely();
+    return snapper.mend(limits.forward, task);
 }
 
 }  // namespace pfgeom

@@ -19,8 +19,9 @@ struct Grid {
 };
 
 /// Moves each vertex onto the grid, within the limits if that can be: along the surface to a lattice that is
-/// coarser than the grid where it may (up to 8 steps), across it to single steps. Coarse lattices cost fewer bits.
-void snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
+/// coarser than the grid where it may (up to 32 steps), across it to single steps. Coarse lattices cost fewer
+/// bits.
+bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
                    const Task& task);
 
 }  // namespace pfgeom

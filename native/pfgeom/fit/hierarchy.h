@@ -13,7 +13,7 @@ struct HierarchyOptions {
     int first_sheet = 4;
     int last_level = 9;
     int last_thin = 6;       ///< finest level that may flag thin cells
-    double lambda = 0.7;     ///< weight of bits against squared error, relative to the step's natural slope
+    double lambda = 0.3;    ///< weight of bits against squared error, relative to the step's natural slope
     double dead_zone = 0;    ///< > 0: on the sheet levels only errors beyond this (cube's units) count
     double most_bits = 1e300;  ///< give up (no levels) once the estimate exceeds this
 };

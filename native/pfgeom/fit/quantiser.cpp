@@ -1,61 +1,33 @@
 #include "pfgeom/fit/quantiser.h"
 
-#include "pfgeom/base/reproducible.h"
-
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 
 namespace pfgeom {
 namespace {
 
-constexpr double kRidge = 0.05;       // of the mean energy (1 %: +1.6 % bytes)
-constexpr double kRoundToZero = 0.6;  // values below this start as zero
-constexpr std::size_t kNearBins = 8, kParentBins = 5, kClasses = 18;
-
-std::size_t class_of(std::int32_t z) {
-    return static_cast<std::size_t>(std::bit_width(static_cast<std::uint32_t>(std::abs(z))));
-}
-
-// min(n - 1, floor(s · log2(1 + 8 a))) for a magnitude a in sixteenths.
-std::size_t magnitude_bin(double sixteenths, double s, std::size_t n) {
-    const double b = s * reproducible_log2(1 + sixteenths / 2);
-    return std::min(n - 1, static_cast<std::size_t>(b));
-}
+constexpr double kRidge = 0.05;  // of the mean energy (1 %: +1.6 % bytes)
+constexpr double kRoundToZero =
+    0.4;  // values below this start as zero (0.5: +0.1 %, 0.6: +1 %, 0.75: +3.5 %)
+constexpr std::int32_t kMost = 65535;     // of a magnitude
+constexpr int kFirstExchange = 2;         // sweep
+constexpr std::int32_t kMostRebuilt = 1;  // magnitude (3: the same)
+constexpr double kLeastSaved = 1e-9;      // of lambda: below is rounding
 
 }  // namespace
 
 Quantiser::Quantiser(Level& level, const Columns& columns, const LevelSamples& samples,
                      const Surroundings& surroundings)
-    : level_(level), columns_(columns), surroundings_(surroundings) {
-    const std::size_t n = level.centres.size();
+    : level_(level), columns_(columns), rate_(level, surroundings), lo_(samples.lo), hi_(samples.hi) {
     value_.resize(samples.values.size());
-    lo_ = samples.lo;
-    hi_ = samples.hi;
+    column_.resize(samples.values.size());
     for (std::size_t s = 0; s < value_.size(); ++s) {
         const double w = samples.weights[s];
         value_[s] = w * samples.values[s];
         lo_[s] = static_cast<float>(w * lo_[s]);
         hi_[s] = static_cast<float>(w * hi_[s]);
     }
-    first_.assign(n + 1, 0);
-    for (std::size_t i = 0; i < n; ++i) {
-        for (const Neighbour& e : surroundings.of(i)) {
-            ++first_[i + 1];
-            ++first_[static_cast<std::size_t>(e.index) + 1];
-        }
-    }
-    for (std::size_t i = 0; i < n; ++i) first_[i + 1] += first_[i];
-    both_.resize(first_.back());
-    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
-    for (std::size_t i = 0; i < n; ++i) {
-        for (const Neighbour& e : surroundings.of(i)) {
-            both_[at[i]++] = e;
-            both_[at[static_cast<std::size_t>(e.index)]++] = {static_cast<std::int32_t>(i), e.weight};
-        }
-    }
-    level_.z.assign(n, 0);
+    level_.z.assign(level.centres.size(), 0);
 }
 
 double Quantiser::distortion() const {
@@ -69,17 +41,14 @@ double Quantiser::distortion() const {
 
 double Quantiser::slope(std::size_t i) const {
     double sum = 0;
-    for (std::uint32_t k = columns_.first[i]; k < columns_.first[i + 1]; ++k) {
-        sum += columns_.entries[k].slope * residual(columns_.entries[k].sample);
-    }
+    for (const Columns::Entry& e : columns_.of(i)) sum += e.slope * residual(e.sample);
     return sum;
 }
 
 void Quantiser::move(std::size_t i, double change) {
     if (change == 0) return;
-    for (std::uint32_t k = columns_.first[i]; k < columns_.first[i + 1]; ++k) {
-        value_[static_cast<std::size_t>(columns_.entries[k].sample)] += change * columns_.entries[k].slope;
-    }
+    for (const Columns::Entry& e : columns_.of(i))
+        value_[static_cast<std::size_t>(e.sample)] += change * e.slope;
 }
 
 void Quantiser::relax(int sweeps, const Task& task) {
@@ -97,92 +66,137 @@ void Quantiser::relax(int sweeps, const Task& task) {
             move(i, change);
         }
     }
-    constexpr double kMost = 65535;
     for (std::size_t i = 0; i < n; ++i) {
-        const double v = std::clamp(y[i], -kMost, kMost);
-        level_.z[i] = std::abs(v) < kRoundToZero ? 0 : static_cast<std::int32_t>(std::floor(v + 0.5));
-        move(i, level_.z[i] - y[i]);
+        const double v = std::clamp(y[i], -1.0 * kMost, 1.0 * kMost);
+        const auto magnitude = static_cast<std::int32_t>(std::floor(std::abs(v) + 0.5));
+        level_.z[i] = std::abs(v) < kRoundToZero ? 0 : std::max(magnitude, 1) * (v < 0 ? -1 : 1);
+        move(i, level_.reconstruct(level_.z[i]) - y[i]);
     }
 }
 
-std::size_t Quantiser::cost_bin(std::size_t i) const {
-    std::int64_t magnitude = 0, weight = 0;
-    for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
-        magnitude +=
-            std::int64_t{both_[k].weight} * std::abs(level_.z[static_cast<std::size_t>(both_[k].index)]);
-        weight += both_[k].weight;
-    }
-    const double near = weight > 0 ? 16.0 * static_cast<double>(magnitude) / static_cast<double>(weight) : 0;
-    return magnitude_bin(near, 1.4, kNearBins) * kParentBins +
-           magnitude_bin(surroundings_.parent[i], 0.8, kParentBins);
+void Quantiser::apply(std::size_t i, std::int32_t by) {
+    if (by == 0) return;
+    move(i, jump(i, by));
+    level_.z[i] += by;
+    settled_[i] = 0;
+    for (const Neighbour& e : rate_.neighbours(i)) settled_[static_cast<std::size_t>(e.index)] = 0;
 }
 
-void Quantiser::measure_costs() {
-    constexpr std::size_t kBins = kNearBins * kParentBins;
-    std::vector<double> counts(kBins * kClasses, 0);
-    std::array<double, kClasses> all{};
-    all.fill(0.2);
-    double total = 0.2 * kClasses;
-    for (std::size_t i = 0; i < level_.z.size(); ++i) {
-        const std::size_t c = class_of(level_.z[i]);
-        ++counts[cost_bin(i) * kClasses + c];
-        ++all[c];
-        ++total;
-    }
-    costs_.assign(kBins * kClasses, 0);
-    for (std::size_t b = 0; b < kBins; ++b) {
-        double sum = 0;
-        for (std::size_t c = 0; c < kClasses; ++c) {
-            counts[b * kClasses + c] += 4 * all[c] / total;
-            sum += counts[b * kClasses + c];
-        }
-        for (std::size_t c = 0; c < kClasses; ++c) {
-            const double signs = c > 0 ? 1 + 0.97 * static_cast<double>(c - 1) : 0;  // sign and mantissa
-            const double bits = reproducible_log2(sum / counts[b * kClasses + c]) + signs;
-            costs_[b * kClasses + c] = static_cast<float>(bits);
-        }
-    }
-}
-
-std::int32_t Quantiser::best(std::size_t i, double lambda) const {
+// Sets coefficient i to the best value, all others staying. Returns what that saves.
+double Quantiser::improve(std::size_t i, double lambda) {
     const double energy = columns_.energy[i];
-    if (energy <= 0) return 0;
     const std::int32_t now = level_.z[i];
-    const double ideal = std::clamp(now + slope(i) / energy, -65534.0, 65534.0);
+    if (energy <= 0) return 0;
+    const double ideal = std::clamp(level_.reconstruct(now) + slope(i) / energy, 1.0 - kMost, kMost - 1.0);
     const auto below = static_cast<std::int32_t>(std::floor(ideal));
-    const float* cost = &costs_[cost_bin(i) * kClasses];
+    const auto price = [&](std::int32_t z) {
+        const double error = level_.reconstruct(z) - ideal;
+        return energy * error * error + lambda * rate_.bits(i, z);
+    };
+    const double before = price(now);
     std::int32_t choice = now;
-    double least = 1e300;
-    for (const std::int32_t z : {now, below, below + 1, below > 0 ? below - 1 : below + 2, 0}) {
-        const double total = energy * (z - ideal) * (z - ideal) + lambda * cost[class_of(z)];
-        if (total < least - 1e-15 * std::abs(least)) {
+    double least = before;
+    for (const std::int32_t z : {below, below + 1, below > 0 ? below - 1 : below + 2, 0}) {
+        const double total = price(z);
+        if (total < least * (1 - 1e-15)) {
             least = total;
             choice = z;
         }
     }
-    return choice;
+    apply(i, choice - now);
+    return before - least;
+}
+
+// What changing coefficient j, where the residual has this slope, saves.
+double Quantiser::saving(std::size_t j, std::int32_t by, double slope, double lambda) const {
+    const double d = jump(j, by);
+    return (2 * slope - d * columns_.energy[j]) * d +
+           lambda * (rate_.bits(j, level_.z[j]) - rate_.bits(j, level_.z[j] + by));
+}
+
+// The change of a neighbour that goes best with changing coefficient i, whose column is spread over the
+// samples. None if both together save nothing.
+Quantiser::Change Quantiser::partner(std::size_t i, std::int32_t by, double lambda) const {
+    const double alone = saving(i, by, slope(i), lambda), d = jump(i, by);
+    Change best;
+    for (const Neighbour& e : rate_.neighbours(i)) {
+        const auto j = static_cast<std::size_t>(e.index);
+        if (columns_.energy[j] <= 0) continue;
+        double slope_j = 0;
+        for (const Columns::Entry& entry : columns_.of(j)) {
+            const double answer = d * double{column_[static_cast<std::size_t>(entry.sample)]};
+            slope_j += entry.slope * (residual(entry.sample) - answer);
+        }
+        const double ideal =
+            level_.reconstruct(level_.z[j]) + std::clamp(slope_j / columns_.energy[j], -8.0, 8.0);
+        const auto change = static_cast<std::int32_t>(std::floor(ideal + 0.5)) - level_.z[j];
+        if (change == 0 || std::abs(level_.z[j] + change) > kMost) continue;
+        const double saved = alone + saving(j, change, slope_j, lambda);
+        if (saved > best.saved) best = {j, change, saved};
+    }
+    return best;
+}
+
+// Moves a unit of coefficient i to a neighbour where that saves most.
+bool Quantiser::exchange(std::size_t i, double lambda) {
+    const std::int32_t by = level_.z[i] > 0 ? -1 : 1;
+    for (const Columns::Entry& e : columns_.of(i)) column_[static_cast<std::size_t>(e.sample)] = e.slope;
+    const Change other = partner(i, by, lambda);
+    for (const Columns::Entry& e : columns_.of(i)) column_[static_cast<std::size_t>(e.sample)] = 0;
+    if (other.saved <= kLeastSaved * lambda) return false;
+    apply(i, by);
+    apply(other.i, other.by);
+    return true;
+}
+
+// Takes coefficient i to zero, lets its neighbours answer one after the other, and undoes all of it unless
+// that saves.
+bool Quantiser::rebuild(std::size_t i, double lambda) {
+    const std::int32_t old = level_.z[i];
+    const auto neighbours = rate_.neighbours(i);
+    undo_.clear();
+    for (const Neighbour& e : neighbours) undo_.push_back(level_.z[static_cast<std::size_t>(e.index)]);
+    double saved = saving(i, -old, slope(i), lambda);
+    apply(i, -old);
+    for (const Neighbour& e : neighbours) saved += improve(static_cast<std::size_t>(e.index), lambda);
+    if (saved > kLeastSaved * lambda) return true;
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+        const auto j = static_cast<std::size_t>(neighbours[k].index);
+        apply(j, undo_[k] - level_.z[j]);
+    }
+    apply(i, old);
+    return false;
+}
+
+// One look at coefficient i. True if anything changed.
+bool Quantiser::revise(std::size_t i, int sweep, double lambda) {
+    const std::int32_t old = level_.z[i], magnitude = std::abs(old);
+    bool changed = sweep >= kFirstExchange && magnitude > 0 && exchange(i, lambda);
+    if (!changed && sweep >= kFirstExchange && magnitude > 0 && magnitude <= kMostRebuilt)
+        changed = rebuild(i, lambda);
+    improve(i, lambda);
+    return changed || level_.z[i] != old;
 }
 
 double Quantiser::optimise(int sweeps, double lambda, const Task& task) {
+    settled_.assign(level_.z.size(), 0);
+    for (std::size_t i = 0; i < level_.z.size(); ++i) {
+        if (columns_.energy[i] <= 0) apply(i, -level_.z[i]);
+    }
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-        measure_costs();
+        rate_.measure();
+        if (sweep <= kFirstExchange) std::fill(settled_.begin(), settled_.end(), 0);
         std::size_t changes = 0;
         for (std::size_t i = 0; i < level_.z.size(); ++i) {
-            if (i % 1024 == 0) task.check();
-            const std::int32_t z = best(i, lambda);
-            if (z == level_.z[i]) continue;
-            move(i, z - level_.z[i]);
-            level_.z[i] = z;
-            ++changes;
+            if (i % 256 == 0) task.check();
+            if (settled_[i] != 0) continue;
+            settled_[i] = 1;
+            changes += revise(i, sweep, lambda) ? 1 : 0;
         }
-        if (changes == 0) break;
+        if (changes == 0 && sweep >= kFirstExchange) break;
     }
-    measure_costs();
-    double bits = 0;
-    for (std::size_t i = 0; i < level_.z.size(); ++i) {
-        bits += costs_[cost_bin(i) * kClasses + class_of(level_.z[i])];
-    }
-    return bits;
+    rate_.measure();
+    return rate_.total();
 }
 
 }  // namespace pfgeom

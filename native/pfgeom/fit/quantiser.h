@@ -1,14 +1,16 @@
 // Rate-distortion-optimal quantisation of one level's form factors: integer coordinate descent on the exact
 // quadratic residual, with an adaptive estimate of what each integer costs among its neighbours.
 // Source: Ramchandran, Vetterli, "Rate-distortion optimal fast thresholding", IEEE TIP 3(5), 1994, and the
-// RDOQ of video coders; departure: the transform is not orthogonal, so a decision moves the residual of its
-// neighbours. Measured gain over plain rounding: 24 % of the bytes at equal rms.
+// RDOQ of video coders; departures: the balls overlap, so a decision moves the residual of its neighbours,
+// and exchanges between two neighbours leave the local minima that single decisions end in. Measured gains at
+// equal rms: 24 % of the bytes over plain rounding, exchanges another 5 to 6 %.
 #pragma once
 
 #include "pfgeom/base/task.h"
-#include "pfgeom/eval/surroundings.h"
 #include "pfgeom/fit/columns.h"
+#include "pfgeom/fit/rate_model.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace pfgeom {
@@ -20,32 +22,43 @@ class Quantiser {
 
     /// Σ of squared residuals now.
     double distortion() const;
-    /// Real-valued Gauss-Seidel sweeps with a ridge of 5 % of the mean energy, then plain rounding into
-    /// level.z.
+    /// Real-valued Gauss-Seidel sweeps with a ridge of 5 % of the mean energy, then rounding into level.z.
     void relax(int sweeps, const Task& task);
     /// Integer sweeps: minimises distortion + lambda · bits. Returns the estimated bits.
     double optimise(int sweeps, double lambda, const Task& task);
 
   private:
+    struct Change {
+        std::size_t i = 0;
+        std::int32_t by = 0;
+        double saved = 0;  ///< of distortion + lambda · bits
+    };
     double residual(std::int32_t s) const {
         const auto i = static_cast<std::size_t>(s);
         const double v = value_[i];
         return v < lo_[i] ? lo_[i] - v : v > hi_[i] ? hi_[i] - v : 0.0;
     }
     double slope(std::size_t i) const;
+    double jump(std::size_t i, std::int32_t by) const {
+        return level_.reconstruct(level_.z[i] + by) - level_.reconstruct(level_.z[i]);
+    }
+    double saving(std::size_t j, std::int32_t by, double slope, double lambda) const;
     void move(std::size_t i, double change);
-    void measure_costs();
-    std::size_t cost_bin(std::size_t i) const;
-    std::int32_t best(std::size_t i, double lambda) const;
+    void apply(std::size_t i, std::int32_t by);
+    double improve(std::size_t i, double lambda);
+    Change partner(std::size_t i, std::int32_t by, double lambda) const;
+    bool exchange(std::size_t i, double lambda);
+    bool rebuild(std::size_t i, double lambda);
+    bool revise(std::size_t i, int sweep, double lambda);
 
     Level& level_;
     const Columns& columns_;
-    const Surroundings& surroundings_;
+    RateModel rate_;
     std::vector<double> value_;
     std::vector<float> lo_, hi_;
-    std::vector<std::uint32_t> first_;  // neighbours both ways
-    std::vector<Neighbour> both_;
-    std::vector<float> costs_;
+    std::vector<std::uint8_t> settled_;  // not worth another look until a neighbour changes
+    std::vector<float> column_;          // scratch: one column, spread over the samples
+    std::vector<std::int32_t> undo_;     // scratch: z of neighbours
 };
 
 }  // namespace pfgeom

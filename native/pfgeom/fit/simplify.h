@@ -8,7 +8,7 @@
 namespace pfgeom {
 
 struct MeshPartOptions {
-    double tolerance = 0;       ///< in the mesh's units
+    double tolerance = 0;  ///< in the mesh's units
     Metric metric = Metric::max;
     /// Share of the tolerance that is used (the closed loop lowers it when a measurement fails); 0: no
     /// simplification, finest quantisation: the safety net, which always holds the tolerance.
@@ -19,6 +19,5 @@ struct MeshPartOptions {
 /// is aimed to lie within share * tolerance of `mesh` both ways. Any triangle soup goes in; borders stay
 /// within the tolerance too. Deterministic. In canonical order (codec's business) only after `canonical()`.
 Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, const Task& task = {});
-
 
 }  // namespace pfgeom

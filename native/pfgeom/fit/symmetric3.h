@@ -1,9 +1,9 @@
 // A symmetric 3 by 3 system, for small least squares.
 #pragma once
 
-#include <algorithm>
-
 #include "pfgeom/base/vec.h"
+
+#include <algorithm>
 
 namespace pfgeom {
 
@@ -18,7 +18,8 @@ struct Symmetric3 {
     void add_diagonal(double d) { xx += d, yy += d, zz += d; }
     double trace() const { return xx + yy + zz; }
     Vec3 operator*(const Vec3& v) const {
-        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+                xz * v.x + yz * v.y + zz * v.z};
     }
     Symmetric3& operator+=(const Symmetric3& o) {
         xx += o.xx, xy += o.xy, xz += o.xz, yy += o.yy, yz += o.yz, zz += o.zz;

@@ -20,18 +20,24 @@ struct Perturbation {
 };
 
 /// One level of a hierarchy of perturbations: balls Q = 1 - |x-c|²/r² of one radius. Centres and scales are
-/// derived (eval/derive.h) from the levels before and from `thin`; the form factors are z · step · scale.
+/// derived (eval/derive.h) from the levels before and from `thin`; the form factors are
+/// reconstruct(z) · step · scale.
 struct Level {
     int depth = 0;                   ///< spacing h = 2 / 2^depth
     double radius = 0;               ///< r, in the cube's units
     double step = 0;                 ///< of the quantiser, in the cube's units
+    double towards_zero = 0;         ///< how much closer to zero than its integer a form factor is, in steps
     std::vector<std::uint8_t> thin;  ///< coded: a flag for each candidate cell of the level before, or empty
     std::vector<std::int32_t> z;     ///< coded: quantised form factors, one a centre
     std::vector<Vec3> centres;       ///< derived
     std::vector<double> scale;  ///< derived: |∇F| at the centre on the levels before (1 for lattice nodes)
     std::vector<std::uint8_t> lattice;  ///< derived: 1 = lattice node, 0 = centre on the surface
 
-    double factor(std::size_t i) const { return z[i] * step * scale[i]; }
+    /// The form factor of an integer, in quantiser steps.
+    double reconstruct(std::int32_t q) const {
+        return q > 0 ? q - towards_zero : q < 0 ? q + towards_zero : 0.0;
+    }
+    double factor(std::size_t i) const { return reconstruct(z[i]) * step * scale[i]; }
 };
 
 /// What the levels are derived from.
@@ -39,6 +45,7 @@ struct HierarchyHead {
     std::array<std::uint8_t, 3> axes{};  ///< base ellipsoid: semi-axis (axes + 1) / 256
     std::uint8_t step_code = 0;          ///< step of level 7 = 2^(-step_code / 8)
     std::uint8_t ratio_code = 74;        ///< step of level l = step of level 7 · (ratio_code / 64)^(l - 7)
+    std::uint8_t shrink_code = 4;        ///< form factors are shrink_code / 16 steps closer to zero (0 .. 7)
     std::uint8_t first_sheet = 4;  ///< levels 2 .. first_sheet-1 are lattices, then centres on the surface
 };
 

@@ -1,55 +1,56 @@
-// Adapts a mesh to a tolerance by local operations. With unit normals n, n' at the ends of an edge and d from one
-// to the other, the arc over the edge has the height |(n' - n)·d| / 8 up to third order: no evaluation is needed
-// to find edges that are too long or too short, and the first guess for a new vertex is good to fourth order.
-// Source: H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, "Mesh optimization", SIGGRAPH 1993 (the three
-// operations). Departures: lengths are measured by the height of the arc, so triangles are long where the surface
-// is straight; vertices never move.
+// Adapts a mesh to a tolerance by local operations: merges edges where that keeps it, splits those that leave
+// it, turns the others towards Delaunay's; then asks the field in the middle of every face, and splits on.
+// What edge_tests.h tells takes no evaluation, and a new vertex starts from a guess good to fourth order.
+//
+// Source: H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, "Mesh optimization", SIGGRAPH 1993 (the
+// three operations). Departures: edges are measured by the height of their arcs, so triangles are long where
+// the surface is straight; vertices never move; operations are greedy, in the order of the half-edges, with
+// no energy; the new vertices of a round are evaluated in parallel.
 #include "pfgeom/polygonize/adapt.h"
 
-#include <algorithm>
-#include <string>
-
 #include "pfgeom/base/parallel.h"
+#include "pfgeom/polygonize/edge_tests.h"
 #include "pfgeom/polygonize/project.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
 
 namespace pfgeom {
 namespace {
 
 constexpr std::size_t kChunk = 64;  // new vertices a job
 constexpr int kRounds = 40;         // of splits; each splits the worst edge of every triangle
-constexpr int kFlips = 8;           // at most as many times the edges in a round: rounding could make it endless
-constexpr double kFacing = 0.3;     // least cosine between a triangle and the normals at its corners
-constexpr double kThinnest = 0.15;  // height over longest side of the triangles that a merge may make
-constexpr int kMostNeighbours = 10; // of a vertex after a merge
+constexpr int kChecks = 5;          // of faces against the field; on scans the third finds hardly any
+constexpr int kFlips = 8;  // at most as many times the edges of a round: rounding could make it endless
 
 class Adapter {
   public:
     Adapter(const CubeField& field, const AdaptOptions& options, SurfaceMesh& mesh, const Task& task)
-        : field_(field), options_(options), mesh_(mesh), task_(task) {}
+        : field_(field), options_(options), mesh_(mesh), tests_(mesh), task_(task) {}
 
     void run() {
-        for (const double share : {0.25, 0.5, 1.0}) {
-            merge_edges(share * options_.tolerance);
-            mesh_.compact();
-            touch_all();
-            flip_edges();
+        for (const double share : {0.25, 0.5, 1.0}) {  // short edges first: that leaves better shapes
+            task_.report(0.6 + 0.1 * share, "triangles");
+            merge_and_flip(share * options_.edge_tolerance);
         }
-        touch_all();
-        for (int round = 0; round < kRounds && split_edges(); ++round) flip_edges();
+        split_high_edges();
+        // The splits have made edges across the bends short enough that those along them can be merged.
+        merge_and_flip(options_.edge_tolerance);
+        split_high_edges();
+        task_.report(0.8, "triangles");
+        check_faces();
     }
 
   private:
-    double height(std::int32_t a, std::int32_t b) const {
-        return std::abs(dot(mesh_.normal[b] - mesh_.normal[a], mesh_.position[b] - mesh_.position[a])) / 8;
+    // Can the edge be split?
+    bool open(std::int32_t h) const {
+        return !stuck_[h] && tests_.squared_length(h) >= options_.shortest_edge * options_.shortest_edge;
     }
-    double height(std::int32_t h) const { return height(mesh_.from(h), mesh_.to(h)); }
-    // The height, if the edge can be split.
-    double open_height(std::int32_t h) const {
-        const Vec3 d = mesh_.position[mesh_.to(h)] - mesh_.position[mesh_.from(h)];
-        return stuck_[h] || squared_norm(d) < options_.shortest_edge * options_.shortest_edge ? 0 : height(h);
-    }
+    double open_height(std::int32_t h) const { return open(h) ? tests_.height(h) : 0; }
     void touch(std::int32_t h) {
         touched_.push_back(h);
+        changed_.push_back(h / 3);
         stuck_[h] = stuck_[mesh_.twin(h)] = 0;
     }
     void touch_all() {
@@ -58,57 +59,41 @@ class Adapter {
         for (std::int32_t h = 0; h < mesh_.half_edges(); ++h)
             if (h < mesh_.twin(h)) touched_.push_back(h);
     }
-    bool faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest) const;
+    void merge_and_flip(double limit);
     void merge_edges(double limit);
-    bool may_merge(std::int32_t h, double limit) const;
-    bool split_edges();
+    void split_high_edges();
+    void check_faces();
+    std::vector<std::int32_t> high_edges();
+    std::vector<std::int32_t> edges_of_far_faces(const std::vector<std::int32_t>& faces) const;
+    bool too_far(std::int32_t face) const;
+    void split_edges(const std::vector<std::int32_t>& chosen);
     bool worst_of_face(std::int32_t h, double height) const;
     bool middle(std::int32_t h, SurfacePoint& p) const;
-    void split(std::int32_t h, const SurfacePoint& point);
+    bool split(std::int32_t h, const SurfacePoint& point);
     void flip_edges();
-    bool should_flip(std::int32_t h) const;
 
     const CubeField& field_;
     const AdaptOptions& options_;
     SurfaceMesh& mesh_;
+    EdgeTests tests_;
     const Task& task_;
     std::vector<std::int32_t> touched_;  // half-edges to be looked at, some of them more than once
+    std::vector<std::int32_t> changed_;  // faces, some of them more than once
     std::vector<char> stuck_;            // by half-edge: no vertex could be put on the zero set there
 };
 
-// Is the triangle counter-clockwise with respect to its vertices' normals, and not too thin?
-bool Adapter::faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest) const {
-    const Vec3 ab = mesh_.position[b] - mesh_.position[a], ac = mesh_.position[c] - mesh_.position[a];
-    const Vec3 n = cross(ab, ac);
-    const double area = norm(n);
-    const double side = std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)});
-    if (!(area > thinnest * side)) return false;
-    for (const std::int32_t v : {a, b, c})
-        if (dot(n, mesh_.normal[v]) < kFacing * area) return false;
-    return true;
-}
-
-// Merging from(h) into to(h): no edge may leave the limit, no triangle turn over or become a sliver.
-bool Adapter::may_merge(std::int32_t h, double limit) const {
-    const std::int32_t b = mesh_.to(h);
-    if (height(h) > limit) return false;
-    int neighbours = mesh_.valence(mesh_.twin(h)) - 4;
-    std::int32_t spoke = h;
-    do {
-        ++neighbours;
-        const std::int32_t x = mesh_.to(spoke), y = mesh_.apex(spoke);
-        if (x != b && height(b, x) > limit) return false;
-        if (x != b && y != b && !faces_outside(b, x, y, kThinnest)) return false;
-        spoke = mesh_.twin(SurfaceMesh::previous(spoke));
-    } while (spoke != h);
-    return neighbours <= kMostNeighbours;
+void Adapter::merge_and_flip(double limit) {
+    merge_edges(limit);
+    mesh_.compact();
+    touch_all();
+    flip_edges();
 }
 
 void Adapter::merge_edges(double limit) {
     const std::int32_t n = mesh_.half_edges();
     for (std::int32_t h = 0; h < n; ++h) {
         if (h % 1024 == 0) task_.check();
-        if (mesh_.alive(h / 3) && may_merge(h, limit)) mesh_.collapse(h);
+        if (mesh_.alive(h / 3) && tests_.may_merge(h, limit)) mesh_.collapse(h);
     }
 }
 
@@ -116,7 +101,8 @@ void Adapter::merge_edges(double limit) {
 bool Adapter::worst_of_face(std::int32_t h, double own) const {
     for (const std::int32_t other : {SurfaceMesh::next(h), SurfaceMesh::previous(h)}) {
         const double theirs = open_height(other);
-        if (theirs > own || (theirs == own && std::min(other, mesh_.twin(other)) < std::min(h, mesh_.twin(h))))
+        if (theirs > own ||
+            (theirs == own && std::min(other, mesh_.twin(other)) < std::min(h, mesh_.twin(h))))
             return false;
     }
     return true;
@@ -127,44 +113,110 @@ bool Adapter::middle(std::int32_t h, SurfacePoint& p) const {
     const std::int32_t a = mesh_.from(h), b = mesh_.to(h);
     const Vec3 d = mesh_.position[b] - mesh_.position[a];
     const Vec3 na = mesh_.normal[a], nb = mesh_.normal[b];
-    const Vec3 start = (mesh_.position[a] + mesh_.position[b]) * 0.5 + (nb * dot(d, nb) - na * dot(d, na)) * 0.125;
+    const Vec3 start =
+        (mesh_.position[a] + mesh_.position[b]) * 0.5 + (nb * dot(d, nb) - na * dot(d, na)) * 0.125;
     return project(field_, start, norm(d) / 4, options_.accuracy, p) && dot(p.normal, na + nb) > 0;
 }
 
-// Splits the edges that are the worst of both their triangles; false once there are none.
-bool Adapter::split_edges() {
+void Adapter::split_high_edges() {
+    for (int round = 0; round < kRounds; ++round) {
+        const std::vector<std::int32_t> chosen = high_edges();
+        if (chosen.empty()) return;
+        split_edges(chosen);
+        flip_edges();
+    }
+}
+
+// The edges above the tolerance that are the worst of both their triangles. The others wait among the
+// touched.
+std::vector<std::int32_t> Adapter::high_edges() {
     std::vector<std::int32_t> chosen, waiting;
     for (std::size_t i = 0; i < touched_.size(); ++i) {
         if (i % 1024 == 0) task_.check();
         const std::int32_t h = touched_[i];
         const double own = open_height(h);
-        if (own <= options_.tolerance) continue;
+        if (own <= options_.edge_tolerance) continue;
         const bool worst = worst_of_face(h, own) && worst_of_face(mesh_.twin(h), own);
         (worst ? chosen : waiting).push_back(std::min(h, mesh_.twin(h)));
     }
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    touched_ = std::move(waiting);
+    return chosen;
+}
+
+void Adapter::check_faces() {
+    std::vector<std::int32_t> faces(mesh_.face_count());
+    std::iota(faces.begin(), faces.end(), 0);
+    for (int round = 0; round < kChecks && !faces.empty(); ++round) {
+        changed_.clear();
+        split_edges(edges_of_far_faces(faces));
+        flip_edges();
+        split_high_edges();
+        std::sort(changed_.begin(), changed_.end());
+        changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+        faces = changed_;
+    }
+}
+
+// The longest edges of the faces whose middle is too far from the zero set: what the vertices' normals did
+// not tell. One edge at most of each triangle, so that splits do not meet.
+std::vector<std::int32_t> Adapter::edges_of_far_faces(const std::vector<std::int32_t>& faces) const {
+    std::vector<char> far(faces.size());
+    parallel_chunks(faces.size(), kChunk, task_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) far[i] = too_far(faces[i]);
+    });
+    std::vector<char> taken(mesh_.face_count());
+    std::vector<std::int32_t> chosen;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        if (!far[i]) continue;
+        std::int32_t longest = 3 * faces[i];
+        for (const std::int32_t h : {longest + 1, longest + 2})
+            if (tests_.squared_length(h) > tests_.squared_length(longest)) longest = h;
+        char &mine = taken[longest / 3], &other = taken[mesh_.twin(longest) / 3];
+        if (mine || other || !open(longest)) continue;
+        mine = other = 1;
+        chosen.push_back(longest);
+    }
+    return chosen;
+}
+
+bool Adapter::too_far(std::int32_t face) const {
+    const Triangle& f = mesh_.faces()[face];
+    Vec3 gradient;
+    const Vec3 centre = (mesh_.position[f[0]] + mesh_.position[f[1]] + mesh_.position[f[2]]) / 3;
+    const double value = field_.value_and_gradient(centre, gradient);
+    const double limit = options_.face_tolerance;
+    return value * value > limit * limit * squared_norm(gradient);
+}
+
+void Adapter::split_edges(const std::vector<std::int32_t>& chosen) {
     std::vector<SurfacePoint> points(chosen.size());
     std::vector<char> found(chosen.size());
     parallel_chunks(chosen.size(), kChunk, task_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) found[i] = middle(chosen[i], points[i]);
     });
     if (mesh_.face_count() + 2 * chosen.size() > options_.max_faces)
-        throw LimitExceeded("polygonize: more than max_faces = " + std::to_string(options_.max_faces) + " faces");
-    touched_ = std::move(waiting);
+        throw LimitExceeded("polygonize: more than max_faces = " + std::to_string(options_.max_faces) +
+                            " faces");
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-        if (found[i])
-            split(chosen[i], points[i]);
-        else
-            stuck_[chosen[i]] = stuck_[mesh_.twin(chosen[i])] = 1;
+        if (!found[i] || !split(chosen[i], points[i])) stuck_[chosen[i]] = stuck_[mesh_.twin(chosen[i])] = 1;
     }
-    return !chosen.empty();
 }
 
-void Adapter::split(std::int32_t h, const SurfacePoint& point) {
+// False, and nothing done, where a triangle would turn over.
+bool Adapter::split(std::int32_t h, const SurfacePoint& point) {
     const auto vertex = static_cast<std::int32_t>(mesh_.position.size());
     mesh_.position.push_back(point.position);
     mesh_.normal.push_back(point.normal);
+    for (const std::int32_t e : {h, mesh_.twin(h)}) {
+        if (tests_.faces_outside(mesh_.from(e), vertex, mesh_.apex(e), 0) &&
+            tests_.faces_outside(vertex, mesh_.to(e), mesh_.apex(e), 0))
+            continue;
+        mesh_.position.pop_back();
+        mesh_.normal.pop_back();
+        return false;
+    }
     mesh_.split(h, vertex);
     stuck_.resize(mesh_.half_edges(), 0);
     std::int32_t spoke = SurfaceMesh::next(h);  // from the vertex
@@ -173,6 +225,7 @@ void Adapter::split(std::int32_t h, const SurfacePoint& point) {
         touch(SurfaceMesh::next(spoke));
         spoke = mesh_.twin(SurfaceMesh::previous(spoke));
     }
+    return true;
 }
 
 // Turns edges until none would be better the other way.
@@ -183,34 +236,17 @@ void Adapter::flip_edges() {
         if (steps % 1024 == 0) task_.check();
         const std::int32_t h = stack.back();
         stack.pop_back();
-        if (!should_flip(h)) continue;
+        if (!tests_.should_flip(h, options_.edge_tolerance)) continue;
         --left;
         mesh_.flip(h);
         const std::int32_t g = mesh_.twin(h);
         touch(h);
-        for (const std::int32_t outer : {SurfaceMesh::next(h), SurfaceMesh::previous(h), SurfaceMesh::next(g), SurfaceMesh::previous(g)}) {
+        for (const std::int32_t outer : {SurfaceMesh::next(h), SurfaceMesh::previous(h), SurfaceMesh::next(g),
+                                         SurfaceMesh::previous(g)}) {
             touch(outer);
             stack.push_back(outer);
         }
     }
-}
-
-// Better means: a lower arc where it is above the tolerance, else Delaunay (the opposite angles' sum above 180°).
-bool Adapter::should_flip(std::int32_t h) const {
-    const std::int32_t g = mesh_.twin(h);
-    const std::int32_t a = mesh_.from(h), b = mesh_.to(h), c = mesh_.apex(h), d = mesh_.apex(g);
-    const double now = height(a, b), then = height(c, d);
-    const auto &p = mesh_.position;
-    const Vec3 ca = p[a] - p[c], cb = p[b] - p[c], da = p[a] - p[d], db = p[b] - p[d];
-    const double sine_c = norm(cross(ca, cb)), sine_d = norm(cross(da, db));
-    const double opposite = dot(ca, cb) * sine_d + dot(da, db) * sine_c;
-    const bool rounder = opposite < -1e-9 * (norm(ca) * norm(cb)) * (norm(da) * norm(db));
-    const bool now_low = now <= options_.tolerance, then_low = then <= options_.tolerance;
-    const bool lower = then_low && !now_low;
-    if (!lower && !(rounder && then_low == now_low)) return false;
-    const double thinnest = lower ? kThinnest : 0;
-    if (!faces_outside(c, d, b, thinnest) || !faces_outside(d, c, a, thinnest)) return false;
-    return c != d && mesh_.valence(h) > 3 && mesh_.valence(g) > 3 && !mesh_.joined(SurfaceMesh::previous(h), d);
 }
 
 }  // namespace

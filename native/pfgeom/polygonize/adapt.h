@@ -8,7 +8,8 @@
 namespace pfgeom {
 
 struct AdaptOptions {
-    double tolerance = 0;       ///< largest distance aimed at between an edge and the zero set
+    double edge_tolerance = 0;  ///< largest distance aimed at between an edge and the zero set
+    double face_tolerance = 0;  ///< the same at the middle of a face
     double accuracy = 0;        ///< of new vertices
     double shortest_edge = 0;   ///< shorter ones are not split
     std::size_t max_faces = 0;  ///< LimitExceeded above

@@ -1,10 +1,10 @@
 // A scalar field closed at the faces of the cube [-1,1]³: min(field, distance to the cube's faces).
 #pragma once
 
-#include <limits>
-
 #include "pfgeom/eval/scalar_field.h"
 #include "pfgeom/polygonize/lattice.h"
+
+#include <limits>
 
 namespace pfgeom {
 

@@ -1,22 +1,24 @@
 // Dual mesh of the octree: every minimal edge that the surface crosses becomes a polygon of the sheets in the
-// three or four leaves about it. Sources: T. Ju, F. Losasso, S. Schaefer, J. Warren, "Dual contouring of Hermite
-// data", SIGGRAPH 2002; S. Schaefer, T. Ju, J. Warren, "Manifold dual contouring", IEEE TVCG 13(3), 2007.
-// Departures:
-// - Leaves are reached through crossed edges until every quadrant about each of them is accounted for, so the
-//   mesh is closed even if a field's range() is wrong and cells were dropped that should not have been.
-// - The disks of leaf_surface.cpp form a closed 2-manifold, and so does their dual, as a cell complex. As a mesh
-//   of indexed triangles it needs more: no two edges with the same ends. Two leaves share at most one minimal
-//   face, so this can only happen where a face has several pieces of surface (each of them then gets a vertex of
-//   its own in the middle) and between opposite leaves about an edge that is smaller than both (no diagonal is
-//   drawn there).
+// three or four leaves about it.
+//
+// Sources: T. Ju, F. Losasso, S. Schaefer, J. Warren, "Dual contouring of Hermite data", SIGGRAPH 2002; S.
+// Schaefer, T. Ju, J. Warren, "Manifold dual contouring", IEEE TVCG 13(3), 2007. Departures:
+//
+// Leaves are reached through crossed edges until every quadrant about each of them is accounted for, so the
+// mesh is closed even if a field's range() is wrong and cells were dropped that should not have been.
+//
+// The disks of leaf_surface.cpp form a closed 2-manifold, and so does their dual, as a cell complex. As a
+// list of indexed triangles it needs more: no two edges with the same ends. Two leaves share at most one
+// minimal face, so this can only happen where a face has several pieces of surface (each of them then gets a
+// vertex of its own in the middle) and between opposite leaves about an edge that is smaller than both (no
+// diagonal is drawn there).
 #include "pfgeom/polygonize/dual.h"
-
-#include <map>
-#include <optional>
-#include <string>
 
 #include "pfgeom/polygonize/leaf_surface.h"
 #include "pfgeom/polygonize/project.h"
+
+#include <map>
+#include <string>
 
 namespace pfgeom {
 namespace {
@@ -48,9 +50,14 @@ class DualMesher {
     SurfaceMesh run() {
         std::vector<std::int32_t> leaves;
         for (std::size_t i = 0; i < octree_.nodes().size(); ++i)
-            if (octree_.nodes()[i].leaf() && octree_.nodes()[i].mixed()) leaves.push_back(static_cast<std::int32_t>(i));
+            if (octree_.nodes()[i].leaf() && octree_.nodes()[i].mixed())
+                leaves.push_back(static_cast<std::int32_t>(i));
         for (; !leaves.empty(); leaves = leaves_missing()) add_leaves(leaves);
-        for (const CrossedEdge& e : edges_) add_polygon(e);
+        task_.report(0.5, "cells");
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            if (i % 1024 == 0) task_.check();
+            add_polygon(edges_[i]);
+        }
         place_vertices();
         mesh_.set_faces(std::move(faces_));
         return std::move(mesh_);
@@ -81,12 +88,14 @@ class DualMesher {
 std::int32_t DualMesher::edge_row(const LatticeEdge& edge) {
     const auto slot_of = [this](std::uint64_t key) {
         std::size_t slot = hash_key(key) & (slots_.size() - 1);
-        while (slots_[slot] >= 0 && edges_[slots_[slot]].edge.key() != key) slot = (slot + 1) & (slots_.size() - 1);
+        while (slots_[slot] >= 0 && edges_[slots_[slot]].edge.key() != key)
+            slot = (slot + 1) & (slots_.size() - 1);
         return slot;
     };
     if (2 * edges_.size() >= slots_.size()) {
         slots_.assign(slots_.empty() ? 1024 : 2 * slots_.size(), -1);
-        for (std::size_t i = 0; i < edges_.size(); ++i) slots_[slot_of(edges_[i].edge.key())] = static_cast<std::int32_t>(i);
+        for (std::size_t i = 0; i < edges_.size(); ++i)
+            slots_[slot_of(edges_[i].edge.key())] = static_cast<std::int32_t>(i);
     }
     std::int32_t& row = slots_[slot_of(edge.key())];
     if (row < 0) {
@@ -104,7 +113,8 @@ void DualMesher::add_leaves(const std::vector<std::int32_t>& leaves) {
             for (std::size_t i = begin; i < end; ++i)
                 find_sheets(octree_, octree_.nodes()[leaves[batch + i]], found[i]);
         });
-        for (std::size_t i = 0; i < found.size(); ++i) add_sheets(octree_.nodes()[leaves[batch + i]], found[i]);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            add_sheets(octree_.nodes()[leaves[batch + i]], found[i]);
         task_.check();
     }
 }
@@ -129,7 +139,8 @@ void DualMesher::add_sheets(const OctreeNode& leaf, const LeafSheets& sheets) {
     }
     for (std::int32_t s = 0; s < sheets.count; ++s) seeds_[first + s].point *= 1.0 / uses[s];
     for (const FacePiece& piece : sheets.pieces) {
-        const std::uint64_t a = piece.a.key() << 2 | piece.a_direction, b = piece.b.key() << 2 | piece.b_direction;
+        const std::uint64_t a = piece.a.key() << 2 | piece.a_direction,
+                            b = piece.b.key() << 2 | piece.b_direction;
         if (piece_rows_.contains(a)) continue;  // the other leaf brought it
         piece_rows_[a] = piece_rows_[b] = static_cast<std::int32_t>(seeds_.size());
         seeds_.push_back({piece.point, piece.size, edge_row(piece.a)});
@@ -142,8 +153,9 @@ std::vector<std::int32_t> DualMesher::leaves_missing() const {
     for (const CrossedEdge& e : edges_) {
         for (int q = 0; q < 4; ++q) {
             if (e.vertex[q] >= 0) continue;
-            const LatticePoint cell = moved(moved(e.edge.low, next_axis(e.edge.axis), q == 0 || q == 3 ? -1 : 0),
-                                            last_axis(e.edge.axis), q < 2 ? -1 : 0);
+            const LatticePoint cell =
+                moved(moved(e.edge.low, next_axis(e.edge.axis), q == 0 || q == 3 ? -1 : 0),
+                      last_axis(e.edge.axis), q < 2 ? -1 : 0);
             missing.push_back(octree_.find(cell, kDeepest));
         }
     }
@@ -166,7 +178,9 @@ void DualMesher::add_polygon(const CrossedEdge& e) {
         const int after = (q + 1) % 4;
         if (e.vertex[q] == e.vertex[after]) continue;  // one leaf on both sides
         ring[n++] = e.vertex[q];
-        const auto piece = piece_rows_.empty() ? piece_rows_.end() : piece_rows_.find(e.edge.key() << 2 | static_cast<std::uint64_t>(q));
+        const auto piece = piece_rows_.empty()
+                               ? piece_rows_.end()
+                               : piece_rows_.find(e.edge.key() << 2 | static_cast<std::uint64_t>(q));
         if (piece == piece_rows_.end()) continue;
         ring[n++] = piece->second;
         plain = false;
@@ -178,8 +192,8 @@ void DualMesher::add_polygon(const CrossedEdge& e) {
         add_triangle(ring[0], ring[1], ring[2]);
     } else if (plain && n == 4) {
         // Quadrants 0 and 2 (or 1 and 3) may be joined if one of them has the edge undivided.
-        const bool reversed_parity = e.rising;  // ring[0] is then quadrant 3
-        const bool even = e.own & (reversed_parity ? 0b1010 : 0b0101), odd = e.own & (reversed_parity ? 0b0101 : 0b1010);
+        const bool even = e.own & (e.rising ? 0b1010 : 0b0101);  // ring[0] is quadrant 0, or 3 if reversed
+        const bool odd = e.own & (e.rising ? 0b0101 : 0b1010);
         const bool shorter_even = squared_norm(at(0) - at(2)) <= squared_norm(at(1) - at(3));
         const std::size_t s = even && (!odd || shorter_even) ? 0 : 1;
         add_triangle(ring[s], ring[s + 1], ring[(s + 2) % 4]);
@@ -197,7 +211,8 @@ void DualMesher::add_polygon(const CrossedEdge& e) {
 SurfacePoint DualMesher::fallback(const Seed& seed) const {
     const CrossedEdge& e = edges_[seed.edge];
     const CubeField& field = octree_.field();
-    const Vec3 low = field.position(e.edge.low), high = field.position(moved(e.edge.low, e.edge.axis, e.length));
+    const Vec3 low = field.position(e.edge.low),
+               high = field.position(moved(e.edge.low, e.edge.axis, e.length));
     return e.rising ? bisect(field, high, low) : bisect(field, low, high);
 }
 

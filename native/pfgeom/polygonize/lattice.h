@@ -2,10 +2,10 @@
 // about the corners that they share.
 #pragma once
 
+#include "pfgeom/base/vec.h"
+
 #include <array>
 #include <cstdint>
-
-#include "pfgeom/base/vec.h"
 
 namespace pfgeom {
 
@@ -24,8 +24,12 @@ constexpr std::uint64_t hash_key(std::uint64_t key) {
 }
 
 /// The two axes after `axis`, so that (axis, u, v) is right-handed.
-constexpr int next_axis(int axis) { return axis == 2 ? 0 : axis + 1; }
-constexpr int last_axis(int axis) { return axis == 0 ? 2 : axis - 1; }
+constexpr int next_axis(int axis) {
+    return axis == 2 ? 0 : axis + 1;
+}
+constexpr int last_axis(int axis) {
+    return axis == 0 ? 2 : axis - 1;
+}
 
 /// `p` moved by `distance` along `axis`.
 constexpr LatticePoint moved(LatticePoint p, int axis, std::int32_t distance) {
@@ -38,8 +42,8 @@ constexpr LatticePoint cube_corner(const LatticePoint& p, std::int32_t size, int
     return {p[0] + (i & 1) * size, p[1] + (i >> 1 & 1) * size, p[2] + (i >> 2 & 1) * size};
 }
 
-/// A piece of a grid line between neighbouring vertices of the octree: its lower end names it, since pieces do
-/// not overlap.
+/// A piece of a grid line between neighbouring vertices of the octree: its lower end names it, since pieces
+/// do not overlap.
 struct LatticeEdge {
     LatticePoint low{};
     int axis = 0;

@@ -1,11 +1,12 @@
-// A leaf is taken as a polyhedron: its faces are cut by smaller neighbours into minimal faces, their sides into
-// minimal edges, and the field's signs at all these vertices decide everything. In a minimal face the crossed
-// edges are joined in pairs by pieces of the surface; in the leaf these pieces close up into cycles, each of
-// which bounds one sheet, a disk. Since both leaves at a face see the same pairs, all disks together form a
-// closed 2-manifold, with no condition on the field or on the sizes of the cells.
-// Source: S. Schaefer, T. Ju, J. Warren, "Manifold dual contouring", IEEE TVCG 13(3), 2007 (sheets of a cell);
-// departures: cycles over minimal faces take the place of a table of cubes, so that no collapse of a uniform
-// grid is needed to have cells of different size.
+// A leaf is taken as a polyhedron: its faces are cut by smaller neighbours into minimal faces, their sides
+// into minimal edges, and the field's signs at all these vertices decide everything. In a minimal face the
+// crossed edges are joined in pairs by pieces of the surface; in the leaf these pieces close up into cycles,
+// each of which bounds one sheet, a disk. Since both leaves at a face see the same pairs, all disks together
+// form a closed 2-manifold, with no condition on the field or on the sizes of the cells.
+//
+// Source: S. Schaefer, T. Ju, J. Warren, "Manifold dual contouring", IEEE TVCG 13(3), 2007 (sheets of a
+// cell). Departure: cycles over minimal faces take the place of a table of cubes, so that no collapse of a
+// uniform grid is needed to have cells of different size.
 #include "pfgeom/polygonize/leaf_surface.h"
 
 namespace pfgeom {
@@ -43,8 +44,9 @@ class SheetFinder {
         if (octree_.is_split(side < 0 ? moved(f.low, f.axis, -size) : f.low, f.depth)) {
             const int u = next_axis(f.axis), v = last_axis(f.axis);
             for (int i = 0; i < 4; ++i)
-                face({moved(moved(f.low, u, (i & 1) * size / 2), v, (i >> 1) * size / 2), f.axis, f.depth + 1},
-                     side);
+                face(
+                    {moved(moved(f.low, u, (i & 1) * size / 2), v, (i >> 1) * size / 2), f.axis, f.depth + 1},
+                    side);
             return;
         }
         met_.clear();
@@ -82,7 +84,8 @@ class SheetFinder {
         if (rising == (low >= 0)) return;
         const bool along_u = inward == next_axis(side.axis);
         const int direction = along_u ? (inward_up ? 1 : 3) : (inward_up ? 2 : 0);
-        met_.push_back({crossing(side, size, low, high), static_cast<std::uint8_t>(direction), rising == forward});
+        met_.push_back(
+            {crossing(side, size, low, high), static_cast<std::uint8_t>(direction), rising == forward});
     }
 
     std::int32_t crossing(const LatticeEdge& edge, std::int32_t length, double low, double high) {
@@ -107,8 +110,8 @@ class SheetFinder {
     std::uint8_t quadrants(const LatticeEdge& edge) const {
         const auto u = static_cast<std::size_t>(next_axis(edge.axis));
         const auto v = static_cast<std::size_t>(last_axis(edge.axis));
-        const bool below_u = leaf_.corner[u] < edge.low[u], above_u = leaf_.corner[u] + size_ > edge.low[u];
-        const bool below_v = leaf_.corner[v] < edge.low[v], above_v = leaf_.corner[v] + size_ > edge.low[v];
+        const bool below_u = leaf_.corner[u]<edge.low[u], above_u = leaf_.corner[u] + size_> edge.low[u];
+        const bool below_v = leaf_.corner[v]<edge.low[v], above_v = leaf_.corner[v] + size_> edge.low[v];
         return static_cast<std::uint8_t>((below_u && below_v) | (above_u && below_v) << 1 |
                                          (above_u && above_v) << 2 | (below_u && above_v) << 3);
     }

@@ -1,14 +1,14 @@
 // The surface's sheets within one leaf of the octree, and what joins them to those of other leaves.
 #pragma once
 
-#include <vector>
-
 #include "pfgeom/polygonize/octree.h"
+
+#include <vector>
 
 namespace pfgeom {
 
-/// A sheet's use of a crossed edge. The four quadrants about an edge along axis a, with u and v the next axes,
-/// are (-u,-v), (+u,-v), (+u,+v), (-u,+v): counter-clockwise seen from +a.
+/// A sheet's use of a crossed edge. The four quadrants about an edge along axis a, with u and v the next
+/// axes, are (-u,-v), (+u,-v), (+u,+v), (-u,+v): counter-clockwise seen from +a.
 struct Crossing {
     LatticeEdge edge;
     std::int32_t length = 0;     ///< of the edge

@@ -1,8 +1,11 @@
 // Refinement of the octree. A cell is split where the unit gradients at its eight corners and its centre say
 // that a mesh with edges of its size would leave the chord tolerance, or that the cell may hold more than one
-// sheet. Sources: range test of cells, J. M. Snyder, "Interval analysis for computer graphics", SIGGRAPH 1992;
+// sheet.
+//
+// Sources: range test of cells, J. M. Snyder, "Interval analysis for computer graphics", SIGGRAPH 1992;
 // Hermite data for the error of a cell, T. Ju et al., "Dual contouring of Hermite data", SIGGRAPH 2002.
-// Departures: no QEF of a cell is solved; the change of normals times the distance is the error's estimate.
+// Departure: no least-squares vertex is solved for; the change of normals times the distance estimates the
+// error.
 #include "pfgeom/polygonize/octree.h"
 
 #include <algorithm>
@@ -13,9 +16,14 @@ namespace {
 
 constexpr std::size_t kChunk = 128;  // cells or points a job: some 0.2 ms, and cancel polls between jobs
 
+constexpr std::size_t kMostCells = 2'000'000'000;  // rows are 32 bit
+
 // Normals further apart than 60° within half a cell: its surface is no height field, and in a cell without a
 // change of sign a small sheet may hide (a closed sheet turns its normals all around).
 constexpr double kWide = 0.5;
+// A cell without a change of sign is looked at more closely if its corners' normals are further than 32° from
+// their mean (at 60°, sheets between the corners are missed: 57 instead of 4 tolerances on igea).
+constexpr double kTurning = 0.85;
 
 // Are the inside corners connected along the cube's edges, and the outside corners too? Then the cell has one
 // sheet of surface.
@@ -38,7 +46,16 @@ constexpr auto kOneSheet = [] {
     return table;
 }();
 
-Vec3 normal_of(const Sample& s) { return {s.normal[0], s.normal[1], s.normal[2]}; }
+Vec3 normal_of(const Sample& s) {
+    return {s.normal[0], s.normal[1], s.normal[2]};
+}
+
+// Is a corner's normal further from `axis` than the cosine allows? Where a gradient vanishes, too.
+bool spread(const std::array<const Sample*, 8>& corners, const Vec3& axis, double cosine) {
+    for (const Sample* corner : corners)
+        if (!(dot(normal_of(*corner), axis) >= cosine)) return true;
+    return false;
+}
 
 void evaluate(const CubeField& field, Sample& sample, bool with_normal) {
     if (!with_normal) {
@@ -101,8 +118,9 @@ void Octree::refine() {
 // Gives the parents children; returns those that the surface can cross.
 std::vector<std::int32_t> Octree::split(const std::vector<std::int32_t>& parents) {
     const std::size_t first = nodes_.size(), total = first + 8 * parents.size();
-    if (total > options_.max_cells)
-        throw LimitExceeded("polygonize: more than max_cells = " + std::to_string(options_.max_cells) + " cells");
+    if (total > std::min(options_.max_cells, kMostCells))
+        throw LimitExceeded("polygonize: more than max_cells = " + std::to_string(options_.max_cells) +
+                            " cells");
     nodes_.resize(total);
     parallel_chunks(parents.size(), kChunk / 8, task_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -171,13 +189,12 @@ bool Octree::should_split(const OctreeNode& node, Sample& centre) const {
         corners[k] = samples_.find(cube_corner(node.corner, size_at(node.depth), k));
         mean += normal_of(*corners[k]);
     }
-    mean = normalized(mean);
-    bool wide = false;
-    for (const Sample* corner : corners) wide |= !(dot(normal_of(*corner), mean) >= kWide);
-    if (!wide && !node.mixed()) return false;  // no room for a sheet
+    if (!node.mixed() && !spread(corners, normalized(mean), kTurning)) return false;  // no room for a sheet
     centre.point = cube_corner(node.corner, size_at(node.depth + 1), 7);
     evaluate(field_, centre, true);
-    return wide || !kOneSheet[node.inside] || chord(corners, centre) > chord_;
+    if (spread(corners, normal_of(centre), kWide)) return true;
+    if (!node.mixed()) return (node.inside == 255) != (centre.value >= 0);
+    return !kOneSheet[node.inside] || chord(corners, centre) > chord_;
 }
 
 // For a chord from the centre to a corner, normals n and n' at its ends and the vector d between them, the
@@ -189,40 +206,6 @@ double Octree::chord(const std::array<const Sample*, 8>& corners, const Sample& 
         highest = std::max(highest, std::abs(dot(normal_of(*corner) - normal_of(centre), d)) / 4);
     }
     return highest;
-}
-
-// Neighbouring cells that the surface crosses differ by at most one level (better shapes; the mesh would be
-// closed without it).
-void Octree::balance() {
-    for (int depth = deepest_ - 1; depth > options_.min_depth; --depth) {
-        for (;;) {
-            std::vector<std::int32_t> coarse;
-            for (std::size_t i = 0; i < nodes_.size(); ++i) {
-                if (i % 1024 == 0) task_.check();
-                if (nodes_[i].depth == depth && !nodes_[i].leaf()) add_coarse_neighbours(nodes_[i], coarse);
-            }
-            std::sort(coarse.begin(), coarse.end());
-            coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
-            if (coarse.empty()) break;
-            sample_corners(split(coarse), false);
-        }
-    }
-}
-
-// Leaves beside `parent` that are larger than it, where its children carry surface.
-void Octree::add_coarse_neighbours(const OctreeNode& parent, std::vector<std::int32_t>& coarse) const {
-    bool surface = false;
-    for (int k = 0; k < 8; ++k) surface |= nodes_[parent.children + k].mixed();
-    if (!surface) return;
-    const std::int32_t size = size_at(parent.depth);
-    for (int k = 0; k < 27; ++k) {
-        const LatticePoint beside = {parent.corner[0] + (k % 3 - 1) * size,
-                                     parent.corner[1] + (k / 3 % 3 - 1) * size,
-                                     parent.corner[2] + (k / 9 - 1) * size};
-        if (!contains(beside)) continue;
-        const std::int32_t other = find(beside, parent.depth);
-        if (nodes_[other].depth < parent.depth && nodes_[other].mixed()) coarse.push_back(other);
-    }
 }
 
 }  // namespace pfgeom

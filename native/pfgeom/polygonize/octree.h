@@ -2,12 +2,12 @@
 // bends, with the signs of the field at the corners of the cells that the surface can cross.
 #pragma once
 
-#include <vector>
-
-#include "pfgeom/polygonize/cube_field.h"
 #include "pfgeom/base/parallel.h"
+#include "pfgeom/polygonize/cube_field.h"
 #include "pfgeom/polygonize/polygonize.h"
 #include "pfgeom/polygonize/samples.h"
+
+#include <vector>
 
 namespace pfgeom {
 
@@ -15,9 +15,9 @@ struct OctreeNode {
     LatticePoint corner{};       ///< the low one
     std::int32_t children = -1;  ///< the first of eight in a row, in the order of cube_corner
     std::uint8_t depth = 0;
-    std::uint8_t inside = 0;   ///< bit i: corner i is inside; only where `sampled`
-    bool may_cross = false;    ///< the field's range in the cell contains 0
-    bool sampled = false;      ///< all corners are in `samples`
+    std::uint8_t inside = 0;  ///< bit i: corner i is inside; only where `sampled`
+    bool may_cross = false;   ///< the field's range in the cell contains 0
+    bool sampled = false;     ///< all corners are in `samples`
 
     bool leaf() const { return children < 0; }
     bool mixed() const { return inside != 0 && inside != 255; }

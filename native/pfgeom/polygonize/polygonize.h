@@ -1,12 +1,12 @@
 // The public header of the way back: a scalar field's zero set as a closed 2-manifold triangle mesh.
 #pragma once
 
-#include <cstddef>
-
 #include "pfgeom/base/limits.h"
 #include "pfgeom/base/task.h"
 #include "pfgeom/eval/scalar_field.h"
 #include "pfgeom/mesh/triangle_mesh.h"
+
+#include <cstddef>
 
 namespace pfgeom {
 

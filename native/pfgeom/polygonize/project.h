@@ -10,9 +10,9 @@ struct SurfacePoint {
     Vec3 normal;  ///< unit, towards the outside (against the gradient)
 };
 
-/// Moves `start` onto the zero set, to within about `accuracy` where the field's gradient turns or grows by less
-/// than itself over `size`. False if that leads further than `size` away or does not converge (`result` is then
-/// not to be used).
+/// Moves `start` onto the zero set, to within about `accuracy` where the field's gradient turns or grows by
+/// less than itself over `size`. False if that leads further than `size` away or does not converge (`result`
+/// is then not to be used).
 bool project(const CubeField& field, const Vec3& start, double size, double accuracy, SurfacePoint& result);
 
 /// A zero between two points of different sign, by bisection: always finds one.

@@ -1,9 +1,9 @@
 // The field at corners of cells, each evaluated once: an append-only list with an open-addressing index.
 #pragma once
 
-#include <vector>
-
 #include "pfgeom/polygonize/lattice.h"
+
+#include <vector>
 
 namespace pfgeom {
 

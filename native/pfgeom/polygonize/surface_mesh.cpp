@@ -18,7 +18,8 @@ void SurfaceMesh::set_faces(std::vector<Triangle> faces) {
     for (std::size_t v = 0, begin = 0; v < position.size(); begin = first[v++])
         for (std::size_t i = begin; i < static_cast<std::size_t>(first[v]); ++i)
             for (std::size_t k = i + 1; k < static_cast<std::size_t>(first[v]) && twins_[listed[i]] < 0; ++k)
-                if (from(listed[i]) == to(listed[k]) && to(listed[i]) == from(listed[k])) glue(listed[i], listed[k]);
+                if (from(listed[i]) == to(listed[k]) && to(listed[i]) == from(listed[k]))
+                    glue(listed[i], listed[k]);
 }
 
 bool SurfaceMesh::joined(std::int32_t h, std::int32_t vertex) const {
@@ -40,7 +41,8 @@ int SurfaceMesh::valence(std::int32_t h) const {
     return n;
 }
 
-//        c                c          h: a→b in the triangle abc, g: b→a in the triangle bad; m is put between.
+//        c                c          h: a→b in the triangle abc, g: b→a in the triangle bad; m is put
+//        between.
 //      / | .            / | .        abc becomes amc and mbc, bad becomes mad and bmd;
 //    a --+-- b   →    a - m - b      h stays a→m, g becomes m→a.
 //      . | /            . | /

@@ -1,11 +1,11 @@
 // A closed 2-manifold triangle mesh that can be changed: triangles with their neighbours.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "pfgeom/base/triangle.h"
 #include "pfgeom/base/vec.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace pfgeom {
 
@@ -43,7 +43,9 @@ class SurfaceMesh {
     void compact();
 
   private:
-    void set_face(std::int32_t face, std::int32_t a, std::int32_t b, std::int32_t c) { faces_[face] = {a, b, c}; }
+    void set_face(std::int32_t face, std::int32_t a, std::int32_t b, std::int32_t c) {
+        faces_[face] = {a, b, c};
+    }
     void glue(std::int32_t g, std::int32_t h) {
         twins_[g] = h;
         twins_[h] = g;

@@ -1,13 +1,13 @@
 #include "pfgeom/codec/codec.h"
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "codec/random_model.h"
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/random.h"
 #include "pfgeom/codec/mesh_part_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
 
 namespace pfgeom {
 namespace {
@@ -54,8 +54,9 @@ void expect_equal(const Object& a, const Object& b) {
     ASSERT_EQ(a.instances.size(), b.instances.size());
     for (std::size_t i = 0; i < a.instances.size(); ++i) expect_equal(a.instances[i], b.instances[i]);
     ASSERT_EQ(a.shape.index(), b.shape.index());
-    std::visit([&b](const auto& shape) { expect_equal(shape, std::get<std::decay_t<decltype(shape)>>(b.shape)); },
-               a.shape);
+    std::visit(
+        [&b](const auto& shape) { expect_equal(shape, std::get<std::decay_t<decltype(shape)>>(b.shape)); },
+        a.shape);
 }
 
 void expect_equal(const Function& a, const Function& b) {
@@ -72,9 +73,11 @@ TEST(Codec, RandomModelsComeBackAsTheyWere) {
         const Model model = random_model(seed);
         const Model back = decoded(encode(model));
         ASSERT_EQ(model.functions.size(), back.functions.size());
-        for (std::size_t i = 0; i < model.functions.size(); ++i) expect_equal(model.functions[i], back.functions[i]);
+        for (std::size_t i = 0; i < model.functions.size(); ++i)
+            expect_equal(model.functions[i], back.functions[i]);
         ASSERT_EQ(model.objects.size(), back.objects.size());
-        for (std::size_t i = 0; i < model.objects.size(); ++i) expect_equal(model.objects[i], back.objects[i]);
+        for (std::size_t i = 0; i < model.objects.size(); ++i)
+            expect_equal(model.objects[i], back.objects[i]);
         EXPECT_EQ(model.names, back.names);
         EXPECT_EQ(model.world_transform, back.world_transform);
         EXPECT_EQ(model.face_groups, back.face_groups);
@@ -126,7 +129,8 @@ TEST(Codec, ADecimalToleranceStaysWhatItIs) {
     EXPECT_EQ(decoded(encode(absolute)).promise.tolerance, 0.05);
 }
 
-// What is rounded is rounded up, but never over the tolerance: a promise that held is not broken by storing it.
+// What is rounded is rounded up, but never over the tolerance: a promise that held is not broken by storing
+// it.
 TEST(Codec, ErrorsAreRoundedUpAndPromisesStayKept) {
     Random random(31);
     for (int i = 0; i < 2000; ++i) {

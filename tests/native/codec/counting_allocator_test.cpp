@@ -1,3 +1,5 @@
+#include "codec/counting_allocator.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -5,8 +7,6 @@
 #include <memory>
 #include <new>
 #include <vector>
-
-#include "codec/counting_allocator.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
 #include "pfgeom/codec/entropy.h"
 
+#include "pfgeom/base/random.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
-
-#include "pfgeom/base/random.h"
 
 namespace pfgeom {
 namespace {
@@ -57,7 +57,8 @@ TEST(Entropy, UnlikelyBitsComeBack) {
     }
 }
 
-// A run of 0xFF that a carry then turns into zeros: the interval is halved upwards many times, then left below.
+// A run of 0xFF that a carry then turns into zeros: the interval is halved upwards many times, then left
+// below.
 TEST(Entropy, CarriesRunThroughManyBytes) {
     for (int ones = 0; ones < 400; ++ones) {
         std::vector<Coded> list(static_cast<std::size_t>(ones), {0, 1U << 15});
@@ -147,6 +148,18 @@ TEST(Entropy, OnlyTheShortestTailEndsCleanly) {
             std::vector<std::uint8_t> flipped = bytes;
             flipped[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
             EXPECT_FALSE(ends_cleanly(flipped)) << "seed " << seed << " bit " << bit;
+        }
+    }
+}
+
+// The one beginning that no encoder writes: the value would lie above the whole range.
+TEST(Entropy, AStreamAboveTheRangeNeverEndsCleanly) {
+    for (std::size_t n = 4; n < 40; ++n) {
+        const std::vector<std::uint8_t> bytes(n, 0xFF);
+        EntropyCoder coder(bytes);
+        while (!coder.exhausted()) {
+            coder.code(0, 40000);
+            ASSERT_FALSE(coder.ended_cleanly());
         }
     }
 }

@@ -1,13 +1,13 @@
 #include "pfgeom/codec/header.h"
 
+#include "pfgeom/codec/byte_reader.h"
+#include "pfgeom/codec/byte_writer.h"
+#include "pfgeom/codec/crc32c.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
-
-#include "pfgeom/codec/byte_reader.h"
-#include "pfgeom/codec/byte_writer.h"
-#include "pfgeom/codec/crc32c.h"
 
 namespace pfgeom {
 namespace {
@@ -22,7 +22,7 @@ FormatStatus status_of(const Bytes& bytes) {
 
 // Makes the checksum right again.
 Bytes resealed(Bytes bytes) {
-    bytes.resize(bytes.size() - 4);
+    bytes.erase(bytes.end() - 4, bytes.end());
     ByteWriter out;
     out.append(bytes);
     out.u32(crc32c(bytes));
@@ -52,9 +52,11 @@ TEST(Header, CostsTenBytesWithoutSections) {
 
 TEST(Header, EveryPrefixIsTruncated) {
     for (const bool with_section : {false, true}) {
-        const Bytes bytes = seal_envelope(kStream, with_section ? std::vector{section(1, false)} : std::vector<Section>{});
+        const Bytes bytes =
+            seal_envelope(kStream, with_section ? std::vector{section(1, false)} : std::vector<Section>{});
         for (std::size_t n = 1; n < bytes.size(); ++n) {
-            EXPECT_EQ(status_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n)}), FormatStatus::truncated);
+            EXPECT_EQ(status_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n)}),
+                      FormatStatus::truncated);
         }
         EXPECT_EQ(status_of({}), FormatStatus::not_a_pfg);
     }
@@ -86,7 +88,8 @@ TEST(Header, TextModeTransfersAreNamed) {
         utf8.push_back(b < 0x80 ? b : static_cast<std::uint8_t>(0x80 | (b & 0x3F)));
         seven.push_back(b & 0x7F);
     }
-    for (const Bytes& damaged : {dos, unix, utf8, seven}) EXPECT_EQ(status_of(damaged), FormatStatus::text_damage);
+    for (const Bytes& damaged : {dos, unix, utf8, seven})
+        EXPECT_EQ(status_of(damaged), FormatStatus::text_damage);
 }
 
 TEST(Header, OtherFilesAreNotOurs) {
@@ -103,15 +106,20 @@ TEST(Header, AnotherVersionIsRefusedByName) {
 }
 
 TEST(Header, UnknownSectionsAreSkippedUnlessRequired) {
-    const auto skipped = open_envelope(seal_envelope(kStream, std::vector{section(2, false), section(77, false)}), {});
+    const auto skipped =
+        open_envelope(seal_envelope(kStream, std::vector{section(2, false), section(77, false)}), {});
     ASSERT_TRUE(skipped);
     EXPECT_EQ(skipped->sections.size(), 1U);
-    EXPECT_EQ(status_of(seal_envelope(kStream, std::vector{section(77, true)})), FormatStatus::unknown_section);
-    EXPECT_EQ(status_of(seal_envelope(kStream, std::vector{section(0xFFFFFFFFU, true)})), FormatStatus::unknown_section);
+    EXPECT_EQ(status_of(seal_envelope(kStream, std::vector{section(77, true)})),
+              FormatStatus::unknown_section);
+    EXPECT_EQ(status_of(seal_envelope(kStream, std::vector{section(0xFFFFFFFFU, true)})),
+              FormatStatus::unknown_section);
 }
 
 TEST(Header, BadSectionTablesAreRefused) {
-    const auto bad = [](std::vector<Section> sections) { return status_of(seal_envelope(kStream, sections)); };
+    const auto bad = [](std::vector<Section> sections) {
+        return status_of(seal_envelope(kStream, sections));
+    };
     EXPECT_EQ(bad({section(2, false), section(1, false)}), FormatStatus::bad_section);  // order
     EXPECT_EQ(bad({section(1, false), section(1, false)}), FormatStatus::bad_section);  // twice
     EXPECT_EQ(bad({section(0, false)}), FormatStatus::bad_section);
@@ -127,7 +135,8 @@ TEST(Header, HugeLengthsAreTruncations) {
     ByteWriter out;
     out.append(kMagic);
     out.byte(kVersion);
-    for (const std::uint64_t length : {std::uint64_t{1} << 20, std::uint64_t{1} << 40, (std::uint64_t{1} << 63) - 1}) {
+    for (const std::uint64_t length :
+         {std::uint64_t{1} << 20, std::uint64_t{1} << 40, (std::uint64_t{1} << 63) - 1}) {
         ByteWriter one = out;
         one.varint(length);
         one.varint((std::uint64_t{1} << 63) - 1);

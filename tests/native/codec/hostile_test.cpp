@@ -1,12 +1,5 @@
 // Files made to do harm, most of them with right checksums: each must give a named status or a valid model,
 // soon, and within the memory that its size allows.
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "codec/counting_allocator.h"
 #include "codec/random_model.h"
 #include "pfgeom/base/random.h"
@@ -17,6 +10,13 @@
 #include "pfgeom/codec/model_codec.h"
 #include "pfgeom/codec/promise_codec.h"
 #include "pfgeom/function/check.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace pfgeom {
 namespace {
@@ -47,7 +47,9 @@ Model with_mesh_part() {
     return model;
 }
 
-std::vector<Bytes> small_files() { return {encode(ball()), encode(with_hierarchy(3)), encode(with_mesh_part())}; }
+std::vector<Bytes> small_files() {
+    return {encode(ball()), encode(with_hierarchy(3)), encode(with_mesh_part())};
+}
 
 Bytes flipped(Bytes bytes, std::size_t bit) {
     bytes[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
@@ -56,7 +58,7 @@ Bytes flipped(Bytes bytes, std::size_t bit) {
 
 // With a right checksum.
 Bytes resealed(Bytes bytes) {
-    bytes.resize(bytes.size() - 4);
+    bytes.erase(bytes.end() - 4, bytes.end());
     ByteWriter out;
     out.append(bytes);
     out.u32(crc32c(bytes));
@@ -68,8 +70,8 @@ std::size_t allowed_memory(std::size_t file_bytes) {
     return limits.decode_base_bytes + limits.decode_bytes_per_byte * file_bytes;
 }
 
-// Decodes within time and memory. What is valid can be written again, and is then a file that stays as it is. (The
-// bytes may differ from `bytes`: a mesh part's faces can be walked in other orders than the writer's.)
+// Decodes within time and memory. What is valid can be written again, and is then a file that stays as it is.
+// (The bytes may differ from `bytes`: a mesh part's faces can be walked in other orders than the writer's.)
 FormatStatus expect_harmless(const Bytes& bytes, const std::string& what, double most_seconds = 10) {
     const test::PeakMemory memory;
     const auto start = std::chrono::steady_clock::now();
@@ -89,7 +91,8 @@ TEST(Damage, NoPrefixPasses) {
         ASSERT_TRUE(decode(file));
         for (std::size_t n = 0; n < file.size(); ++n) {
             const Bytes prefix(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(n));
-            EXPECT_EQ(decode(prefix).status(), n == 0 ? FormatStatus::not_a_pfg : FormatStatus::truncated) << n;
+            EXPECT_EQ(decode(prefix).status(), n == 0 ? FormatStatus::not_a_pfg : FormatStatus::truncated)
+                << n;
         }
     }
 }
@@ -205,8 +208,14 @@ TEST(Bombs, CountsBeyondTheBytesAreRefusedAtOnce) {
         for (const Bomb& b : bombs(n)) {
             for (const int tail : {0, 0x55, 0xAA, 0xFF}) {
                 const auto what = b.name + " " + std::to_string(n) + " tail " + std::to_string(tail);
-                EXPECT_NE(expect_harmless(bomb(b.begin, tail == 0 ? 0 : 40, tail), what, kMostSeconds),
-                          FormatStatus::ok);
+                const Bytes file = bomb(b.begin, tail == 0 ? 0 : 40, tail);
+                const FormatStatus status = expect_harmless(file, what, kMostSeconds);
+                // A tail may change the last bits of the count, which then says something else.
+                if (tail == 0) {
+                    EXPECT_EQ(status, FormatStatus::limit_exceeded) << what;
+                } else {
+                    EXPECT_NE(status, FormatStatus::ok) << what;
+                }
                 ++refused;
             }
         }
@@ -255,25 +264,36 @@ Bytes run(std::uint64_t label, std::uint64_t more) {
 }
 
 TEST(Bombs, RunsOfFaceGroupsAreBounded) {
-    EXPECT_EQ(expect_harmless(with_section(SectionId::face_groups, run(1, 1000)), "1,000 faces"), FormatStatus::ok);
-    for (const std::uint64_t more : {std::uint64_t{1} << 28, std::uint64_t{1} << 40, (std::uint64_t{1} << 63) - 1}) {
+    EXPECT_EQ(expect_harmless(with_section(SectionId::face_groups, run(1, 1000)), "1,000 faces"),
+              FormatStatus::ok);
+    for (const std::uint64_t more :
+         {std::uint64_t{1} << 28, std::uint64_t{1} << 40, (std::uint64_t{1} << 63) - 1}) {
         EXPECT_EQ(expect_harmless(with_section(SectionId::face_groups, run(1, more)), "run"),
                   FormatStatus::limit_exceeded);
     }
-    EXPECT_EQ(expect_harmless(with_section(SectionId::face_groups, run(1U << 31, 1)), "label"), FormatStatus::bad_value);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::face_groups, run(1U << 31, 1)), "label"),
+              FormatStatus::bad_value);
     Bytes twice = run(1, 1);
     twice.insert(twice.end(), {1, 1});
-    EXPECT_EQ(expect_harmless(with_section(SectionId::face_groups, twice), "one run as two"), FormatStatus::bad_value);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::face_groups, twice), "one run as two"),
+              FormatStatus::bad_value);
 }
 
 TEST(Bombs, BadNamesAndTransformsAreRefused) {
-    EXPECT_EQ(expect_harmless(with_section(SectionId::names, {9, 'a'}), "beyond the end"), FormatStatus::bad_section);
-    EXPECT_EQ(expect_harmless(with_section(SectionId::names, {2, 0xC0, 0x80}), "overlong"), FormatStatus::bad_value);
-    EXPECT_EQ(expect_harmless(with_section(SectionId::names, {1, 'a', 1, 'b'}), "too many"), FormatStatus::bad_value);
-    EXPECT_EQ(expect_harmless(with_section(SectionId::names, Bytes(5000, 0)), "5,000"), FormatStatus::bad_value);
-    EXPECT_EQ(expect_harmless(with_section(SectionId::world_transform, Bytes(95, 0)), "size"), FormatStatus::bad_section);
-    EXPECT_EQ(expect_harmless(with_section(SectionId::world_transform, Bytes(96, 0xFF)), "nan"), FormatStatus::bad_value);
-    EXPECT_EQ(expect_harmless(with_section(SectionId::world_transform, Bytes(96, 0x80)), "-tiny"), FormatStatus::ok);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::names, {9, 'a'}), "beyond the end"),
+              FormatStatus::bad_section);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::names, {2, 0xC0, 0x80}), "overlong"),
+              FormatStatus::bad_value);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::names, {1, 'a', 1, 'b'}), "too many"),
+              FormatStatus::bad_value);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::names, Bytes(5000, 0)), "5,000"),
+              FormatStatus::bad_value);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::world_transform, Bytes(95, 0)), "size"),
+              FormatStatus::bad_section);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::world_transform, Bytes(96, 0xFF)), "nan"),
+              FormatStatus::bad_value);
+    EXPECT_EQ(expect_harmless(with_section(SectionId::world_transform, Bytes(96, 0x80)), "-tiny"),
+              FormatStatus::ok);
 }
 
 // Every allocation in turn fails: decode says so and leaks nothing.

@@ -89,12 +89,23 @@ TriangleMesh random_soup(Random& random, std::size_t vertices, std::size_t faces
 }
 
 TEST(MeshPartCodec, RoundTripOfNamedShapes) {
-    const std::vector<TriangleMesh> meshes{
-        {},  shapes::cube(), shapes::sphere(3), shapes::torus(), shapes::open_cone(), shapes::saddle(),
-        shapes::moebius(), shapes::klein_bottle(), shapes::misoriented_sphere(), shapes::edge_fan(40),
-        shapes::cubes_sharing_vertex(), shapes::cubes_sharing_edge(), shapes::sliver_fan(), shapes::cracked_cube(),
-        shapes::soup(shapes::sphere(2)), shapes::scene_of_islands(20),
-        shapes::joined(shapes::cube(), shapes::cube())};
+    const std::vector<TriangleMesh> meshes{{},
+                                           shapes::cube(),
+                                           shapes::sphere(3),
+                                           shapes::torus(),
+                                           shapes::open_cone(),
+                                           shapes::saddle(),
+                                           shapes::moebius(),
+                                           shapes::klein_bottle(),
+                                           shapes::misoriented_sphere(),
+                                           shapes::edge_fan(40),
+                                           shapes::cubes_sharing_vertex(),
+                                           shapes::cubes_sharing_edge(),
+                                           shapes::sliver_fan(),
+                                           shapes::cracked_cube(),
+                                           shapes::soup(shapes::sphere(2)),
+                                           shapes::scene_of_islands(20),
+                                           shapes::joined(shapes::cube(), shapes::cube())};
     for (const TriangleMesh& mesh : meshes) {
         for (const int step_code : {0, -30, -100}) {
             SCOPED_TRACE(testing::Message() << mesh.faces.size() << " faces, step " << step_code);
@@ -108,7 +119,8 @@ TEST(MeshPartCodec, RoundTripOfRandomSoups) {
     for (int i = 0; i < 200; ++i) {
         const std::size_t vertices = 3 + random.below(40), faces = random.below(120);
         SCOPED_TRACE(i);
-        expect_round_trip(part_of(random_soup(random, vertices, faces), -8 * static_cast<int>(random.below(20))));
+        expect_round_trip(
+            part_of(random_soup(random, vertices, faces), -8 * static_cast<int>(random.below(20))));
     }
 }
 

@@ -1,13 +1,13 @@
 #include "pfgeom/codec/mixer.h"
 
+#include "pfgeom/base/random.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <climits>
 #include <cmath>
 #include <vector>
-
-#include "pfgeom/base/random.h"
 
 namespace pfgeom {
 namespace {
@@ -24,7 +24,8 @@ TEST(Mixer, SquashIsTheLogisticFunction) {
 TEST(Mixer, StretchIsItsInverse) {
     for (Probability p = 8; p < 65536; p += 16) {
         const double exact = std::log(p / (65536.0 - p)) * kStretchOne;
-        EXPECT_NEAR(stretch(p), exact, 4 + kStretchOne * 0.6 * 65536.0 / (static_cast<double>(p) * (65536.0 - p)) * 16);
+        EXPECT_NEAR(stretch(p), exact,
+                    4 + kStretchOne * 0.6 * 65536.0 / (static_cast<double>(p) * (65536.0 - p)) * 16);
         if (p > 8) {
             EXPECT_GE(stretch(p), stretch(p - 16));
         }

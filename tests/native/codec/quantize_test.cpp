@@ -1,11 +1,11 @@
 #include "pfgeom/codec/quantize.h"
 
+#include "pfgeom/base/random.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
-
-#include "pfgeom/base/random.h"
 
 namespace pfgeom {
 namespace {
@@ -37,14 +37,16 @@ TEST(ShortFloat, RoundsUpToItsGrid) {
 TEST(Decimal, KnowsWhatPeopleWrite) {
     for (int digits = 1; digits <= 999; ++digits) {
         for (int exponent = -12; exponent <= 12; ++exponent) {
-            const double x = exponent < 0 ? digits / std::pow(10.0, -exponent) : digits * std::pow(10.0, exponent);
+            const double x =
+                exponent < 0 ? digits / std::pow(10.0, -exponent) : digits * std::pow(10.0, exponent);
             const auto decimal = as_decimal(x);
             ASSERT_TRUE(decimal) << x;
             EXPECT_EQ(value_of(*decimal), x);
             EXPECT_NE(decimal->digits % 10, 0) << x;
         }
     }
-    for (const double x : {1.0 / 3, 0.12345, 1e-20, 1e30, std::nextafter(0.1, 1.0) + 1e-12}) EXPECT_FALSE(as_decimal(x));
+    for (const double x : {1.0 / 3, 0.12345, 1e-20, 1e30, std::nextafter(0.1, 1.0) + 1e-12})
+        EXPECT_FALSE(as_decimal(x));
 }
 
 TEST(Scaled, IsExact) {

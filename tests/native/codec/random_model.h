@@ -1,22 +1,24 @@
 // Seeded models that use every feature of the format.
 #pragma once
 
+#include "pfgeom/base/random.h"
+#include "pfgeom/eval/derive.h"
+#include "pfgeom/function/model.h"
+
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "pfgeom/base/random.h"
-#include "pfgeom/eval/derive.h"
-#include "pfgeom/function/model.h"
-
 namespace pfgeom::test {
 
 inline std::int32_t below(Random& random, int n) {
     return static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(n)));
 }
-inline double between(Random& random, double lo, double hi) { return lo + (hi - lo) * random.uniform(); }
+inline double between(Random& random, double lo, double hi) {
+    return lo + (hi - lo) * random.uniform();
+}
 
 /// x² / a² + ... = 1 with small integer coefficients, or arbitrary doubles.
 inline Quadric random_quadric(Random& random) {
@@ -48,7 +50,8 @@ inline Function random_hierarchy(Random& random, int last_level) {
         std::vector<ProbedCell> cells;
         if (depth >= function.head.first_sheet && below(random, 2) == 0) {
             cells = thin_candidates(field, depth, unlimited, {});
-            for (std::size_t i = 0; i < cells.size(); ++i) level.thin.push_back(below(random, 20) == 0 ? 1 : 0);
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                level.thin.push_back(below(random, 20) == 0 ? 1 : 0);
         }
         place_centres(field, function.head, cells, level, unlimited, {});
         for (std::size_t i = 0; i < level.centres.size(); ++i) {
@@ -72,7 +75,8 @@ inline MeshPart random_mesh_part(Random& random) {
     MeshPart part;
     part.step_code = -below(random, 80);
     part.positions.resize(4 + random.below(12));
-    for (auto& p : part.positions) p = {below(random, 100) - 50, below(random, 100) - 50, below(random, 100) - 50};
+    for (auto& p : part.positions)
+        p = {below(random, 100) - 50, below(random, 100) - 50, below(random, 100) - 50};
     const int n = static_cast<int>(part.positions.size());
     for (int i = 1 + below(random, 30); i > 0; --i) {
         const std::int32_t a = below(random, n), b = (a + 1 + below(random, n - 1)) % n;
@@ -115,7 +119,9 @@ inline Promise random_promise(Random& random, double diagonal) {
     Promise promise;
     promise.metric = below(random, 2) == 0 ? Metric::max : Metric::rms;
     const int form = below(random, 3);
-    promise.tolerance = form == 0 ? 5e-4 * diagonal : form == 1 ? 0.25 : between(random, 1e-5, 1e-2) * diagonal;
+    promise.tolerance = form == 0   ? 5e-4 * diagonal
+                        : form == 1 ? 0.25
+                                    : between(random, 1e-5, 1e-2) * diagonal;
     promise.bound_mesh = promise.tolerance * random.uniform();
     promise.rms = promise.bound_mesh * random.uniform();
     promise.certified = below(random, 2) == 0;
@@ -153,7 +159,8 @@ inline Model random_model(std::uint64_t seed) {
         model.world_transform.insert(model.world_transform.end(), {0, 0, 0, 1});
     }
     if (below(random, 2) == 0) {
-        for (int i = below(random, 6); i >= 0; --i) model.face_groups.insert(model.face_groups.end(), 1 + random.below(500), i % 3);
+        for (int i = below(random, 6); i >= 0; --i)
+            model.face_groups.insert(model.face_groups.end(), 1 + random.below(500), i % 3);
     }
     return model;
 }

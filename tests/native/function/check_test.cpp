@@ -1,11 +1,11 @@
 #include "pfgeom/function/check.h"
 
+#include "codec/random_model.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-
-#include "codec/random_model.h"
 
 namespace pfgeom {
 namespace {
@@ -21,11 +21,13 @@ std::string flaw_after(Change change) {
 
 TEST(Check, GoodModelsHaveNoFlaw) {
     EXPECT_EQ(find_flaw(ball()), "");
-    for (std::uint64_t seed = 0; seed < 100; ++seed) EXPECT_EQ(find_flaw(test::random_model(seed)), "") << seed;
+    for (std::uint64_t seed = 0; seed < 100; ++seed)
+        EXPECT_EQ(find_flaw(test::random_model(seed)), "") << seed;
 }
 
 TEST(Check, NumbersMustBeFinite) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
+                     kInf = std::numeric_limits<double>::infinity();
     for (const double bad : {kNan, kInf, -kInf, 1e61}) {
         EXPECT_NE(flaw_after([bad](Model& m) { m.functions[0].base.c[9] = bad; }), "");
         EXPECT_NE(flaw_after([bad](Model& m) { m.functions[0].perturbations.push_back({bad, {}}); }), "");
@@ -74,7 +76,9 @@ TEST(Check, NestingMustNotBeACircle) {
 }
 
 TEST(Check, InstancesMustBeSimilarities) {
-    const auto with = [](const Similarity& s) { return flaw_after([&s](Model& m) { m.objects[0].instances = {s}; }); };
+    const auto with = [](const Similarity& s) {
+        return flaw_after([&s](Model& m) { m.objects[0].instances = {s}; });
+    };
     EXPECT_EQ(with({}), "");
     EXPECT_EQ(with({2, {{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}}, {}}), "") << "a mirror";
     EXPECT_NE(with({1, {{{1, 0, 0}, {1, 0, 0}, {0, 0, 1}}}, {}}), "");
@@ -105,11 +109,13 @@ TEST(Check, TheSentenceNamesTheRow) {
 }
 
 TEST(Utf8, WellFormedOnly) {
-    for (const char* good : {"", "a", "Würfel", "€", "\xF0\x9F\x98\x80", "\xEF\xBF\xBF", "\xF4\x8F\xBF\xBF"}) {
+    for (const char* good :
+         {"", "a", "Würfel", "€", "\xF0\x9F\x98\x80", "\xEF\xBF\xBF", "\xF4\x8F\xBF\xBF"}) {
         EXPECT_TRUE(is_utf8(good)) << good;
     }
-    for (const char* bad : {"\x80", "\xC3", "\xC0\x80", "\xC1\xBF", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF0\x8F\xBF\xBF",
-                            "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "a\xE2\x82", "\xE2\x28\xA1"}) {
+    for (const char* bad :
+         {"\x80", "\xC3", "\xC0\x80", "\xC1\xBF", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF0\x8F\xBF\xBF",
+          "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "a\xE2\x82", "\xE2\x28\xA1"}) {
         EXPECT_FALSE(is_utf8(bad)) << bad;
     }
 }

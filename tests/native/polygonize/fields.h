@@ -1,12 +1,12 @@
-// Scalar fields with known zero sets, and random ones, for the tests of the polygonizer. Their ranges come from
-// Lipschitz bounds, so they are conservative and as loose as real ones.
+// Scalar fields with known zero sets, and random ones, for the tests of the polygonizer. Their ranges come
+// from Lipschitz bounds, so they are conservative and as loose as real ones.
 #pragma once
-
-#include <functional>
-#include <vector>
 
 #include "pfgeom/base/random.h"
 #include "pfgeom/eval/scalar_field.h"
+
+#include <functional>
+#include <vector>
 
 namespace pfgeom::test {
 
@@ -73,7 +73,9 @@ inline FormulaField shell_field(double radius, double thickness) {
 /// High genus: the thickened edges of a cubic lattice (a polynomial stand-in for a gyroid's waves).
 inline FormulaField lattice_field(double period, double radius) {
     return {[=](const Vec3& p) {
-                const auto fold = [=](double x) { return std::abs(x / period - std::floor(x / period) - 0.5) * period; };
+                const auto fold = [=](double x) {
+                    return std::abs(x / period - std::floor(x / period) - 0.5) * period;
+                };
                 const Vec3 q = {fold(p.x), fold(p.y), fold(p.z)};
                 const double a = q.x * q.x, b = q.y * q.y, c = q.z * q.z;
                 return radius - std::sqrt(std::min({a + b, b + c, c + a}));
@@ -88,7 +90,9 @@ class BumpField : public ScalarField {
         Random random(seed);
         const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
         for (int i = 0; i < bumps; ++i)
-            bumps_.push_back({{between(-1, 1), between(-1, 1), between(-1, 1)}, between(smallest, largest), between(-1, 1)});
+            bumps_.push_back({{between(-1, 1), between(-1, 1), between(-1, 1)},
+                              between(smallest, largest),
+                              between(-1, 1)});
     }
     double value(const Vec3& p) const override {
         Vec3 gradient;
@@ -129,8 +133,8 @@ class BumpField : public ScalarField {
     std::vector<Bump> bumps_;
 };
 
-/// Signs at random: a field of small integers, constant in cells of a grid, and exactly 0 in many of them. Not
-/// continuous, with no gradient anywhere; its range says nothing.
+/// Signs at random: a field of small integers, constant in cells of a grid, and exactly 0 in many of them.
+/// Not continuous, with no gradient anywhere; its range says nothing.
 class NoiseField : public ScalarField {
   public:
     NoiseField(std::uint64_t seed, double cells) : seed_(seed), cells_(cells) {}

@@ -1,15 +1,15 @@
 // What every mesh of the polygonizer must satisfy, and how far it is from a field's zero set.
 #pragma once
 
+#include "pfgeom/eval/scalar_field.h"
+#include "pfgeom/mesh/triangle_mesh.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
-
-#include "pfgeom/eval/scalar_field.h"
-#include "pfgeom/mesh/triangle_mesh.h"
 
 namespace pfgeom::test {
 
@@ -24,7 +24,8 @@ inline ::testing::AssertionResult is_closed_manifold(const TriangleMesh& mesh) {
             const std::int32_t a = f[i], b = f[(i + 1) % 3], c = f[(i + 2) % 3];
             if (a < 0 || a >= n || a == b) return AssertionFailure() << "a face with vertex " << a;
             edges.emplace_back(a, b);
-            if (!link[a].emplace(b, c).second) return AssertionFailure() << "edge " << a << " " << b << " twice";
+            if (!link[a].emplace(b, c).second)
+                return AssertionFailure() << "edge " << a << " " << b << " twice";
         }
     std::sort(edges.begin(), edges.end());
     for (const auto& [a, b] : edges)
@@ -35,7 +36,8 @@ inline ::testing::AssertionResult is_closed_manifold(const TriangleMesh& mesh) {
         if (link[v].empty()) return AssertionFailure() << "vertex " << v << " is unused";
         std::size_t steps = 1;
         const std::int32_t start = link[v].begin()->first;
-        for (std::int32_t at = link[v].at(start); at != start && steps <= link[v].size(); ++steps) at = link[v].at(at);
+        for (std::int32_t at = link[v].at(start); at != start && steps <= link[v].size(); ++steps)
+            at = link[v].at(at);
         if (steps != link[v].size()) return AssertionFailure() << "vertex " << v << " has several fans";
     }
     return ::testing::AssertionSuccess();
@@ -46,10 +48,10 @@ inline int euler_characteristic(const TriangleMesh& mesh) {
 }
 
 struct Fit {
-    double vertex_max = 0;  ///< |F| / |∇F| at vertices
-    double max = 0, rms = 0;  ///< the same at 7 points of each triangle, by area
-    double flipped = 0;  ///< share of triangles whose normal points inside
-    double thin = 0;     ///< share of triangles with a height below a tenth of the longest side
+    double vertex_max = 0;        ///< |F| / |∇F| at vertices
+    double max = 0, rms = 0;      ///< the same at 7 points of each triangle, by area
+    double flipped = 0;           ///< share of triangles whose normal points inside
+    double thin = 0;              ///< share of triangles with a height below a tenth of the longest side
     double smallest_angle = 180;  ///< degrees, mean over triangles
 };
 
@@ -59,10 +61,12 @@ inline double distance_to_zero_set(const ScalarField& field, const Vec3& p, Vec3
 }
 
 inline Fit measure(const ScalarField& field, const TriangleMesh& mesh) {
-    constexpr double kPoints[7][2] = {{1 / 3., 1 / 3.}, {.1, .1}, {.8, .1}, {.1, .8}, {.45, .45}, {.1, .45}, {.45, .1}};
+    constexpr double kPoints[7][2] = {{1 / 3., 1 / 3.}, {.1, .1},  {.8, .1}, {.1, .8},
+                                      {.45, .45},       {.1, .45}, {.45, .1}};
     Fit fit;
     Vec3 gradient;
-    for (const Vec3& v : mesh.vertices) fit.vertex_max = std::max(fit.vertex_max, distance_to_zero_set(field, v, gradient));
+    for (const Vec3& v : mesh.vertices)
+        fit.vertex_max = std::max(fit.vertex_max, distance_to_zero_set(field, v, gradient));
     double area = 0, sum = 0, angles = 0;
     for (const Triangle& f : mesh.faces) {
         const Vec3 a = mesh.vertices[f[0]], b = mesh.vertices[f[1]] - a, c = mesh.vertices[f[2]] - a;

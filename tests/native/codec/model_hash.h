@@ -1,0 +1,76 @@
+// A hash of everything that a model holds, derived geometry included: goldens are compared by it.
+#pragma once
+
+#include "pfgeom/function/model.h"
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pfgeom::test {
+
+/// FNV-1a over 64-bit words, in the order of the members.
+class ModelHash {
+  public:
+    std::uint64_t value() const { return hash_; }
+
+    void add(std::uint64_t v) { hash_ = (hash_ ^ v) * 0x100000001B3ULL; }
+    void add(std::int64_t v) { add(static_cast<std::uint64_t>(v)); }
+    void add(std::int32_t v) { add(static_cast<std::uint64_t>(v)); }
+    void add(std::uint8_t v) { add(std::uint64_t{v}); }
+    void add(bool v) { add(std::uint64_t{v}); }
+    void add(char v) { add(static_cast<std::uint64_t>(static_cast<unsigned char>(v))); }
+    void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
+    void add(const Vec3& v) { add(v.x), add(v.y), add(v.z); }
+    template <class T>
+    void add(const std::vector<T>& list) {
+        add(std::uint64_t{list.size()});
+        for (const T& item : list) add(item);
+    }
+    template <class T, std::size_t n>
+    void add(const std::array<T, n>& list) {
+        for (const T& item : list) add(item);
+    }
+    void add(const std::string& s) { add(std::vector<char>(s.begin(), s.end())); }
+
+    void add(const Quadric& q) { add(q.c); }
+    void add(const Perturbation& p) { add(p.factor), add(p.quadric); }
+    void add(const Level& l) {
+        add(l.depth), add(l.radius), add(l.step), add(l.thin), add(l.z), add(l.centres), add(l.scale),
+            add(l.lattice);
+    }
+    void add(const HierarchyHead& h) { add(h.axes), add(h.step_code), add(h.ratio_code), add(h.first_sheet); }
+    void add(const Function& f) {
+        add(f.base), add(f.perturbations), add(f.levels);
+        if (!f.levels.empty()) add(f.head);
+    }
+    void add(const SetNode& n) { add(static_cast<std::uint8_t>(n.kind)), add(n.a), add(n.b), add(n.f); }
+    void add(const Solid& s) { add(s.nodes); }
+    void add(const Sheet& s) { add(s.surface), add(s.trim); }
+    void add(const MeshPart& m) { add(m.step_code), add(m.positions), add(m.faces); }
+    void add(const Similarity& s) { add(s.scale), add(s.rows), add(s.translation); }
+    void add(const Object& o) {
+        add(o.frame.scale_code), add(o.frame.offset), add(std::uint64_t{o.shape.index()});
+        std::visit([this](const auto& shape) { add(shape); }, o.shape);
+        add(o.cavity_of), add(o.instances), add(o.mesh_code);
+    }
+    void add(const Promise& p) {
+        add(p.metric == Metric::rms), add(p.tolerance), add(p.bound_mesh), add(p.certified), add(p.rms);
+    }
+    void add(const Model& m) {
+        add(m.functions), add(m.objects), add(m.diagonal), add(m.promise);
+        add(m.names), add(m.world_transform), add(m.face_groups);
+    }
+
+  private:
+    std::uint64_t hash_ = 0xCBF29CE484222325ULL;
+};
+
+inline std::uint64_t hash_of(const Model& model) {
+    ModelHash hash;
+    hash.add(model);
+    return hash.value();
+}
+
+}  // namespace pfgeom::test

@@ -1,0 +1,135 @@
+#include "pfgeom/fit/simplify.h"
+
+#include "pfgeom/eval/mesh_part.h"
+#include "pfgeom/mesh/bvh.h"
+#include "pfgeom/mesh/sample.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace pfgeom {
+namespace {
+
+// Largest distance from samples and vertices of `from` to `to`: not the fitter's own measure.
+double one_sided(const TriangleMesh& from, const TriangleMesh& to) {
+    const Bvh bvh(to);
+    double worst = 0;
+    std::vector<Vec3> points = sample_surface(from, 20000, 1).points;
+    for (const Triangle& t : from.faces) {
+        for (const std::int32_t v : t) points.push_back(from.vertices[static_cast<std::size_t>(v)]);
+    }
+    for (const Vec3& p : points) worst = std::max(worst, bvh.closest(p).squared_distance);
+    return std::sqrt(worst);
+}
+
+double two_sided(const TriangleMesh& a, const TriangleMesh& b) {
+    return std::max(one_sided(a, b), one_sided(b, a));
+}
+
+TriangleMesh fitted(const TriangleMesh& mesh, double tolerance, double share = 1,
+                    Metric metric = Metric::max) {
+    return mesh_of(fit_mesh_part(mesh, {tolerance, metric, share}));
+}
+
+std::vector<TriangleMesh> named_shapes() {
+    return {shapes::cube(),
+            shapes::sphere(4),
+            shapes::torus(),
+            shapes::open_cone(),
+            shapes::saddle(),
+            shapes::moebius(),
+            shapes::klein_bottle(),
+            shapes::cylinder(),
+            shapes::misoriented_sphere(),
+            shapes::edge_fan(),
+            shapes::cubes_sharing_vertex(),
+            shapes::cubes_sharing_edge(),
+            shapes::touching_cubes(),
+            shapes::sliver_fan(),
+            shapes::cracked_cube(),
+            shapes::soup(shapes::sphere(2)),
+            shapes::scene_of_islands(16)};
+}
+
+TEST(Simplify, KeepsTheToleranceOnEveryShape) {
+    for (const TriangleMesh& mesh : named_shapes()) {
+        for (const double relative : {1e-2, 1e-3, 1e-6}) {
+            SCOPED_TRACE(testing::Message() << mesh.faces.size() << " faces, tolerance " << relative);
+            const double tolerance = relative * diagonal(mesh);
+            EXPECT_LE(two_sided(mesh, fitted(mesh, tolerance)), 1.02 * tolerance);
+        }
+    }
+}
+
+TEST(Simplify, ShareZeroIsExactButForTheGrid) {
+    for (const TriangleMesh& mesh : named_shapes()) {
+        const TriangleMesh result = fitted(mesh, 1e-2, 0);
+        ASSERT_EQ(result.faces, mesh.faces);
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+            EXPECT_LE(norm(result.vertices[v] - mesh.vertices[v]), 1e-2 / 8);
+        }
+    }
+}
+
+TEST(Simplify, FlatFacesNeedNoInnerVertices) {
+    TriangleMesh flat = shapes::saddle(20, 0);
+    EXPECT_LE(fitted(flat, 1e-3).faces.size(), 6U);  // two, were it not for the grid
+}
+
+TEST(Simplify, FacesOfASphereGrowWithTheTolerance) {
+    const TriangleMesh sphere = shapes::sphere(5);
+    const std::size_t coarse = fitted(sphere, 1e-2).faces.size(), fine = fitted(sphere, 2.5e-3).faces.size();
+    // The best are some 2π / tolerance / sqrt(27) · 2: an inscribed and a circumscribed triangle share the
+    // error.
+    EXPECT_LE(coarse, 500U);
+    EXPECT_GE(coarse, 240U);
+    EXPECT_GE(fine, 3 * coarse);
+    EXPECT_LE(fine, 5 * coarse);
+}
+
+TEST(Simplify, ClosedStaysClosedAndNothingVanishes) {
+    const TriangleMesh scene = shapes::joined(shapes::sphere(4), shapes::sphere(2, 1e-3, {1.2, 0, 0}));
+    const TriangleMesh result = fitted(scene, 1e-2);
+    std::map<std::pair<int, int>, int> edges;
+    for (const Triangle& t : result.faces) {
+        for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
+    }
+    for (const auto& [edge, uses] : edges) EXPECT_EQ(uses, 2);
+    EXPECT_LE(one_sided(scene, result), 1.02e-2);
+}
+
+TEST(Simplify, RmsIsKeptAndIsCheaperThanTheSameMaximum) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(4);
+    const double tolerance = 2e-3;
+    const TriangleMesh result = fitted(mesh, tolerance, 1, Metric::rms);
+    const Bvh bvh(result);
+    double sum = 0;
+    const SurfaceSamples samples = sample_surface(mesh, 20000, 1);
+    for (const Vec3& p : samples.points) sum += bvh.closest(p).squared_distance;
+    EXPECT_LE(std::sqrt(sum / 20000), 1.02 * tolerance);
+    EXPECT_LT(result.faces.size(), fitted(mesh, tolerance).faces.size());
+}
+
+TEST(Simplify, DoesNotDependOnThreads) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(4);
+    Task one, four;
+    one.threads = 1;
+    four.threads = 4;
+    const auto a = std::get<MeshPart>(fit_mesh_part(mesh, {1e-3, Metric::max, 1}, one).shape);
+    const auto b = std::get<MeshPart>(fit_mesh_part(mesh, {1e-3, Metric::max, 1}, four).shape);
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.faces, b.faces);
+}
+
+TEST(Simplify, RefusesNonsenseAndStopsWhenCancelled) {
+    EXPECT_THROW(fitted(shapes::cube(), 0), InvalidInput);
+    EXPECT_THROW(fitted({}, 1), InvalidInput);
+    CancelToken token;
+    token.cancel();
+    Task task;
+    task.cancel = &token;
+    EXPECT_THROW(fit_mesh_part(shapes::cube(), {1e-3, Metric::max, 1}, task), Cancelled);
+}
+
+}  // namespace
+}  // namespace pfgeom
