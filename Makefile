@@ -106,11 +106,12 @@ check-sanitizers: check-tools
 	cmake --build build/asan --parallel $(jobs)
 	ctest --test-dir build/asan --parallel $(jobs) --output-on-failure --progress
 
-# The stages with threads of their own.
+# The stages with threads of their own, and one mesh through the whole pipeline.
 check-threads: check-tools
 	cmake --preset tsan >/dev/null
-	cmake --build build/tsan --parallel $(jobs) --target test_base test_polygonize test_report test_compress
-	TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build/tsan --parallel $(jobs) --output-on-failure --progress -L 'base|polygonize|report|compress'
+	cmake --build build/tsan --parallel $(jobs) --target test_base test_polygonize test_report determinism_driver
+	TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build/tsan --output-on-failure --progress -L 'base|polygonize|report'
+	TSAN_OPTIONS=halt_on_error=1 build/tsan/tests/determinism/determinism_driver 4 pebble
 
 check-fuzz: check-tools
 	cmake --preset asan >/dev/null

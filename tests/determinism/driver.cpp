@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <string>
 
 namespace {
 
@@ -63,8 +64,10 @@ std::uint64_t hash_of(const scenes::Scene& scene, const pfgeom::Task& task) {
 int main(int argc, char** argv) {
     pfgeom::Task task;
     task.threads = argc > 1 ? std::atoi(argv[1]) : 1;
+    const std::string only = argc > 2 ? argv[2] : "";
     try {
         for (const auto& scene : scenes::all()) {
+            if (!only.empty() && scene.name != only) continue;
             std::printf("%-12s %016" PRIx64 "\n", scene.name.c_str(), hash_of(scene, task));
             std::fflush(stdout);
         }

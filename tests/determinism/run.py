@@ -25,11 +25,18 @@ PRESETS: dict[str, tuple[str, list[int], list[str]]] = {
 }
 
 
+def run(*command: str) -> str:
+    """What the command prints; it is shown if the command fails."""
+    done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{done.stdout}\nfailed: {' '.join(command)}")
+    return done.stdout
+
+
 def build(preset: str, jobs: int) -> Path:
-    subprocess.run(["cmake", "--preset", preset], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     folder = ROOT / "build" / preset
-    target = ["--target", "determinism_driver", "--parallel", str(jobs)]
-    subprocess.run(["cmake", "--build", str(folder), *target], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    run("cmake", "--preset", preset)
+    run("cmake", "--build", str(folder), "--target", "determinism_driver", "--parallel", str(jobs))
     return folder / "tests" / "determinism" / "determinism_driver"
 
 
@@ -41,9 +48,7 @@ def hashes(jobs: int) -> Iterator[tuple[str, str, str]]:
             continue
         driver = build(preset, jobs)
         for threads in thread_counts:
-            command = [*emulator, str(driver), str(threads)]
-            output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-            for line in output.splitlines():
+            for line in run(*emulator, str(driver), str(threads)).splitlines():
                 scene, digest = line.split()
                 yield f"{preset}, {threads} thread{'s' if threads > 1 else ''}", scene, digest
 

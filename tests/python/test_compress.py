@@ -27,10 +27,10 @@ def test_maximum_is_held(name):
 @pytest.mark.parametrize("name", ["torus", "open_disk", "two_spheres"])
 def test_rms_is_held(name):
     mesh = shapes.ALL[name]()
-    model = pfgeom.compress(*mesh, tolerance=2e-3, metric="rms")
+    model = pfgeom.compress(*mesh, tolerance=5e-3, metric="rms")
     _, rms = measure.two_sided(mesh, model.to_mesh(), count=3000)
     assert model.metric == "rms"
-    assert rms <= 2e-3 * measure.diagonal(mesh[0]) * 1.05  # 3,000 samples
+    assert rms <= 5e-3 * measure.diagonal(mesh[0]) * 1.05  # 3,000 samples
     assert model.rms <= model.tolerance
 
 

@@ -21,7 +21,7 @@ def long_calls(long_mesh, sphere_model):
     """Name -> a call of some seconds, compress of many; each takes progress and cancel."""
     return {
         "compress": lambda **options: pfgeom.compress(*long_mesh, tolerance=3e-4, **options),
-        "to_mesh": lambda **options: sphere_model.to_mesh(resolution=1024, **options),
+        "to_mesh": lambda **options: sphere_model.to_mesh(resolution=512, **options),
         "compare": lambda **options: pfgeom.compare(long_mesh, shapes.torus(), samples=1_000_000, **options),
     }
 

@@ -11,7 +11,8 @@
 namespace pfgeom {
 namespace {
 
-constexpr int kMostFits = 8, kMostProofs = 4;
+constexpr int kMostFits = 8, kMostProofs = 4, kMostFitsOfMax = 4;
+constexpr double kChordOfMax = 0.12;  // of the tolerance
 
 // Fine levels have more centres, and with too few samples they are fitted to the samples instead of the surface
 // (armadillo near 1e-4: 500k samples instead of 200k save 3 %).
@@ -89,27 +90,32 @@ class Search {
         return best;
     }
 
+    // Errors within the dead zone cost nothing; what is left beyond it after the last level is estimated at the
+    // samples, and corrected by what the proof measures.
     std::optional<Outcome> search_max() {
-        double share = 1;
+        constexpr double kZone = 0.6, kMend = 0.8, kEnough = 0.9, kHopeless = 1.6;
+        target_.add_vertices(goal_.mesh);
         base_lambda_ = 0.2;
-        options_.last_level = 10;
-        std::optional<Outcome> best;
-        for (int fits = 0; fits < kMostFits; ++fits) {
-            set_fineness(-8 * reproducible_log2(0.5 * share * tolerance_));
-            options_.dead_zone = 0.5 * share * tolerance_;
+        double share = 1;
+        for (int fits = 0; fits < kMostFitsOfMax; ++fits) {
+            const double aim = share * tolerance_;
+            set_fineness(-8 * reproducible_log2(aim));
+            options_.dead_zone = kZone * aim;
+            options_.mend_zone = kMend * aim;
+            options_.enough = kEnough * aim;
             const HierarchyFit fit = fit_hierarchy(target_, options_, task_);
             if (fit.function.levels.empty()) break;
             double worst = fit.max / tolerance_;
-            if (worst < 1.1) {
-                const Outcome outcome = prove_fit(fit, 0.25 * goal_.tolerance);
+            if (worst < kHopeless) {
+                Outcome outcome = prove_fit(fit, kChordOfMax * goal_.tolerance);
                 if (outcome.holds) return outcome;
                 if (outcome.mesh.faces.empty()) break;
-                worst = std::max(worst, outcome.deviation.max() / goal_.tolerance);
+                worst = outcome.deviation.max() / goal_.tolerance;
             }
             if (worst > 30) break;
-            share *= std::clamp(0.95 / worst, 0.6, 0.92);
+            share *= std::clamp(0.97 / worst, 0.6, 0.93);
         }
-        return best;
+        return {};
     }
 
     Outcome prove_fit(const HierarchyFit& fit, double chord) {

@@ -33,7 +33,7 @@ class CollapseError {
     /// From now on backward() looks closely, at several times the cost.
     void measure_finely() {
         slope_ = 0.5;
-        parts_ = 24;
+        parts_ = 16;
     }
     /// Hands the samples over.
     void commit(const Patch& patch);

@@ -1,5 +1,6 @@
 #include "pfgeom/fit/grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -9,7 +10,8 @@ namespace pfgeom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMendingRounds = 6;
+constexpr int kMendingRounds = 4;
+constexpr std::size_t kMostTrials = 10;
 // A coarser lattice must leave some of the limit to the neighbours.
 constexpr double kSlack = 0.92;
 constexpr int kCoarsest = 5;  // lattices of 2^5 steps
@@ -55,10 +57,13 @@ class Snapper {
             for (const std::int32_t v : open) {
                 task.check();
                 if (mesh_.faces_at(v).empty() || holds(v, limit)) continue;
-                for (const std::int32_t w : mesh_.neighbours(v)) take_least_evil(w);
                 take_least_evil(v);
+                for (const std::int32_t w : mesh_.neighbours(v)) {
+                    if (!holds(w, limit)) take_least_evil(w);
+                }
                 failed.push_back(v);
             }
+            if(getenv("VERB")) fprintf(stderr,"mend round %d of %zu: %zu failed @%.1f\n",round,open.size(),failed.size(),clock()/1e6);
             open = std::move(failed);
         }
         return open.empty();
@@ -119,23 +124,30 @@ class Snapper {
     // Nothing near the vertex keeps the limit now: the least evil, until its neighbours have come onto the grid.
     // What is near: around its place, and around the one that would fit best.
     void take_least_evil(std::int32_t v) {
+        struct Candidate {
+            double cost;
+            GridPoint q;
+        };
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
-        const Vec3 fitted = error_.fitted(patch_);
-        GridPoint best = grid_.nearest(mesh_.point(v));
-        double least = kInfinity;
-        for (const GridPoint& middle : {best, grid_.nearest(fitted)}) {
+        std::vector<Candidate> candidates;
+        for (const GridPoint& middle : {grid_.nearest(mesh_.point(v)), grid_.nearest(error_.fitted(patch_))}) {
             for (std::int32_t i = 0; i < 27; ++i) {
                 const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
-                double c = cost(v, q, least);
-                if (!(c < least)) continue;
-                const double backward = error_.backward(patch_, std::min(least, 3 * limits_.backward));
-                if (limits_.metric == Metric::max) c = std::max(c, backward);
-                if (!(c < least)) continue;
-                least = c;
-                best = q;
+                candidates.push_back({cost(v, q, kInfinity), q});
             }
         }
-        take(v, best);
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+        Candidate best{kInfinity, grid_.nearest(mesh_.point(v))};
+        candidates.resize(kMostTrials);  // the way back is dear to measure
+        for (const auto& [forward, q] : candidates) {
+            if (!(forward < best.cost) || best.cost <= limits_.forward) break;
+            mesh_.patch_of_move(v, grid_.point(q), patch_);
+            const double backward = error_.backward(patch_, std::min(best.cost, 3 * limits_.backward));
+            const double worst = limits_.metric == Metric::max ? std::max(forward, backward) : forward;
+            if (backward < kInfinity && worst < best.cost) best = {worst, q};
+        }
+        take(v, best.q);
     }
 
     CollapseMesh& mesh_;

@@ -18,6 +18,9 @@ namespace {
 
 constexpr double kLeastGradient = 0.1;
 constexpr std::size_t kSamplesPerCentre = 16, kLeastSamples = 30'000;
+// With a dead zone: once fewer than this share of the samples is out of `enough`, the levels mend. Excesses are small
+// then, and so must be the weight of the bits.
+constexpr double kMendShare = 0.1, kMendLambda = 0.002;
 constexpr int kLatticeSweeps = 25, kSheetSweeps = 12, kIntegerSweeps = 12;
 
 class Fitter {
@@ -39,12 +42,14 @@ class Fitter {
             Level level = empty_level(fit.function.head, depth);
             if (!fit_level(fit.function.head, level, fit.bits)) break;
             fit.function.levels.push_back(std::move(level));
+            estimate_error(fit);
+            if (fit.max <= options_.enough) break;
+            mending_ = options_.mend_zone > 0 && share_out_ < kMendShare;
             if (fit.bits > options_.most_bits) {
                 fit.function.levels.clear();
                 return fit;
             }
         }
-        estimate_error(fit);
         return fit;
     }
 
@@ -85,10 +90,12 @@ class Fitter {
         Quantiser quantiser(level, columns, samples, surroundings);
         const double scale = 1 / static_cast<double>(surface_samples_), before = quantiser.distortion();
         quantiser.relax(sheet ? kSheetSweeps : kLatticeSweeps, task_);
-        const double level_bits = quantiser.optimise(kIntegerSweeps, lambda_ / scale, task_);
+        const bool zones = sheet && options_.dead_zone > 0;
+        const double lambda = mending_ ? kMendLambda * lambda_ : lambda_;
+        const double level_bits = quantiser.optimise(kIntegerSweeps, lambda / scale, zones, task_);
         const double gain = scale * (before - quantiser.distortion());
-        if (sheet && gain < lambda_ * level_bits) return false;
-        if (sheet && level.depth > 6 && gain < 0.01 * scale * before) return false;
+        if (sheet && gain < lambda * level_bits) return false;
+        if (sheet && !zones && level.depth > 6 && gain < 0.01 * scale * before) return false;
         bits += level_bits;
         const LevelField added(level);
         parallel_chunks(jets_.size(), 4096, task_, [&](std::size_t begin, std::size_t end) {
@@ -138,7 +145,7 @@ class Fitter {
         const std::size_t n = target_.points.size();
         const std::size_t wanted = std::max(kLeastSamples, level.centres.size() * kSamplesPerCentre);
         const std::size_t stride = std::max<std::size_t>(1, n / wanted);
-        const double zone = sheet ? options_.dead_zone : 0;
+        const double zone = !sheet ? 0 : mending_ ? options_.mend_zone : options_.dead_zone;
         LevelSamples samples;
         for (std::size_t i = 0; i < n; i += stride) {
             const double length = sheet ? std::max(kLeastGradient, norm(jets_[i].gradient)) : 1.0;
@@ -208,13 +215,16 @@ class Fitter {
         return close;
     }
 
-    void estimate_error(HierarchyFit& fit) const {
-        double sum = 0;
+    void estimate_error(HierarchyFit& fit) {
+        double sum = 0, out = 0;
+        fit.max = 0;
         for (const Jet& jet : jets_) {
             const double e = std::abs(jet.value) / std::max(0.05, norm(jet.gradient));
             sum += e * e;
             fit.max = std::max(fit.max, e);
+            out += e > options_.enough ? 1 : 0;
         }
+        share_out_ = out / static_cast<double>(jets_.size());
         fit.rms = std::sqrt(sum / static_cast<double>(jets_.size()));
     }
 
@@ -225,6 +235,8 @@ class Fitter {
     std::vector<Jet> jets_;  // of the field at the target's points
     double lambda_ = 0;
     std::size_t surface_samples_ = 0;
+    double share_out_ = 1;  // of the samples, after the last level
+    bool mending_ = false;
 };
 
 }  // namespace

@@ -45,6 +45,16 @@ double Quantiser::slope(std::size_t i) const {
     return sum;
 }
 
+// Σ of the squared residuals in column i once its coefficient has changed by so much.
+double Quantiser::error(std::size_t i, double change) const {
+    double sum = 0;
+    for (const Columns::Entry& e : columns_.of(i)) {
+        const double r = residual(e.sample, change * e.slope);
+        sum += r * r;
+    }
+    return sum;
+}
+
 void Quantiser::move(std::size_t i, double change) {
     if (change == 0) return;
     for (const Columns::Entry& e : columns_.of(i))
@@ -87,6 +97,7 @@ double Quantiser::improve(std::size_t i, double lambda) {
     const double energy = columns_.energy[i];
     const std::int32_t now = level_.z[i];
     if (energy <= 0) return 0;
+    if (zones_) return improve_in_zones(i, lambda);
     const double ideal = std::clamp(level_.reconstruct(now) + slope(i) / energy, 1.0 - kMost, kMost - 1.0);
     const auto below = static_cast<std::int32_t>(std::floor(ideal));
     const auto price = [&](std::int32_t z) {
@@ -107,10 +118,32 @@ double Quantiser::improve(std::size_t i, double lambda) {
     return before - least;
 }
 
+// The same by looking: a unit or two where the residuals push, one back, or none at all.
+double Quantiser::improve_in_zones(std::size_t i, double lambda) {
+    const std::int32_t now = level_.z[i];
+    const double push = slope(i);
+    if (now == 0 && push == 0) return 0;
+    const std::int32_t on = push > 0 ? 1 : -1;
+    const double before = error(i, 0) + lambda * rate_.bits(i, now);
+    std::int32_t choice = now;
+    double least = before;
+    for (const std::int32_t z : {now + on, now + 2 * on, now - on, 0}) {
+        if (z == now || std::abs(z) > kMost) continue;
+        const double total = error(i, jump(i, z - now)) + lambda * rate_.bits(i, z);
+        if (total < least * (1 - 1e-12)) {
+            least = total;
+            choice = z;
+        }
+    }
+    apply(i, choice - now);
+    return before - least;
+}
+
 // What changing coefficient j, where the residual has this slope, saves.
 double Quantiser::saving(std::size_t j, std::int32_t by, double slope, double lambda) const {
     const double d = jump(j, by);
-    return (2 * slope - d * columns_.energy[j]) * d +
+    const double gain = zones_ ? error(j, 0) - error(j, d) : (2 * slope - d * columns_.energy[j]) * d;
+    return gain +
            lambda * (rate_.bits(j, level_.z[j]) - rate_.bits(j, level_.z[j] + by));
 }
 
@@ -171,14 +204,15 @@ bool Quantiser::rebuild(std::size_t i, double lambda) {
 // One look at coefficient i. True if anything changed.
 bool Quantiser::revise(std::size_t i, int sweep, double lambda) {
     const std::int32_t old = level_.z[i], magnitude = std::abs(old);
-    bool changed = sweep >= kFirstExchange && magnitude > 0 && exchange(i, lambda);
+    bool changed = !zones_ && sweep >= kFirstExchange && magnitude > 0 && exchange(i, lambda);
     if (!changed && sweep >= kFirstExchange && magnitude > 0 && magnitude <= kMostRebuilt)
         changed = rebuild(i, lambda);
     improve(i, lambda);
     return changed || level_.z[i] != old;
 }
 
-double Quantiser::optimise(int sweeps, double lambda, const Task& task) {
+double Quantiser::optimise(int sweeps, double lambda, bool zones, const Task& task) {
+    zones_ = zones;
     settled_.assign(level_.z.size(), 0);
     for (std::size_t i = 0; i < level_.z.size(); ++i) {
         if (columns_.energy[i] <= 0) apply(i, -level_.z[i]);

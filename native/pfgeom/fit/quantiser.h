@@ -25,7 +25,9 @@ class Quantiser {
     /// Real-valued Gauss-Seidel sweeps with a ridge of 5 % of the mean energy, then rounding into level.z.
     void relax(int sweeps, const Task& task);
     /// Integer sweeps: minimises distortion + lambda · bits. Returns the estimated bits.
-    double optimise(int sweeps, double lambda, const Task& task);
+    /// `zones`: the samples' intervals are wide, so that most residuals are zero and no quadratic tells what a
+    /// change does: each is evaluated.
+    double optimise(int sweeps, double lambda, bool zones, const Task& task);
 
   private:
     struct Change {
@@ -33,11 +35,12 @@ class Quantiser {
         std::int32_t by = 0;
         double saved = 0;  ///< of distortion + lambda · bits
     };
-    double residual(std::int32_t s) const {
+    double residual(std::int32_t s, double change = 0) const {
         const auto i = static_cast<std::size_t>(s);
-        const double v = value_[i];
+        const double v = value_[i] + change;
         return v < lo_[i] ? lo_[i] - v : v > hi_[i] ? hi_[i] - v : 0.0;
     }
+    double error(std::size_t i, double change) const;
     double slope(std::size_t i) const;
     double jump(std::size_t i, std::int32_t by) const {
         return level_.reconstruct(level_.z[i] + by) - level_.reconstruct(level_.z[i]);
@@ -46,6 +49,7 @@ class Quantiser {
     void move(std::size_t i, double change);
     void apply(std::size_t i, std::int32_t by);
     double improve(std::size_t i, double lambda);
+    double improve_in_zones(std::size_t i, double lambda);
     Change partner(std::size_t i, std::int32_t by, double lambda) const;
     bool exchange(std::size_t i, double lambda);
     bool rebuild(std::size_t i, double lambda);
@@ -54,6 +58,7 @@ class Quantiser {
     Level& level_;
     const Columns& columns_;
     RateModel rate_;
+    bool zones_ = false;
     std::vector<double> value_;
     std::vector<float> lo_, hi_;
     std::vector<std::uint8_t> settled_;  // not worth another look until a neighbour changes

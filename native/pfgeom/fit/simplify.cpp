@@ -68,7 +68,7 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
         CollapseError snapped_error = error;
         const bool kept = snap_vertices(snapped, snapped_error, outer, grid, task);
         object = object_of(snapped.result(), grid);
-        if(getenv("VERB")) fprintf(stderr,"step %g kept %d\n",step,(int)kept);
+        if(getenv("VERB")) fprintf(stderr,"step %g kept %d t %.1f\n",step,(int)kept,clock()/1e6);
         if (kept) break;
     }
     task.report(1, "simplify");

@@ -58,6 +58,15 @@ FitTarget::FitTarget(const TriangleMesh& island, std::size_t samples)
     }
 }
 
+void FitTarget::add_vertices(const TriangleMesh& island) {
+    const std::vector<Vec3> vertex_normal = vertex_normals(island);
+    for (std::size_t i = 0; i < island.vertices.size(); ++i) {
+        points.push_back(frame.to_local(island.vertices[i]));
+        const Vec3 n = normalized(vertex_normal[i]);
+        normals.push_back(inside_out ? -n : n);
+    }
+}
+
 double FitTarget::signed_distance(const Vec3& p) const {
     const ClosestPoint c = bvh.closest(p);
     const double winding = bvh.winding_number(p);

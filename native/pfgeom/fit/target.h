@@ -23,6 +23,9 @@ struct FitTarget {
     /// `island`: closed, in the world.
     FitTarget(const TriangleMesh& island, std::size_t samples);
 
+    /// Vertices as further samples: where the maximum counts, since that is where the mesh reaches furthest.
+    void add_vertices(const TriangleMesh& island);
+
     /// > 0 inside, in the cube.
     double signed_distance(const Vec3& p) const;
 };

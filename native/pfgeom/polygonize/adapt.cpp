@@ -24,6 +24,7 @@ constexpr int kRounds = 40;         // of splits; each splits the worst edge of 
 constexpr int kChecks = 5;          // of faces against the field; on scans the third finds hardly any
 constexpr int kFlips = 8;  // at most as many times the edges of a round: rounding could make it endless
 
+static const double SF=getenv("SF")?atof(getenv("SF")):0;
 class Adapter {
   public:
     Adapter(const CubeField& field, const AdaptOptions& options, SurfaceMesh& mesh, const Task& task)
@@ -115,7 +116,7 @@ bool Adapter::middle(std::int32_t h, SurfacePoint& p) const {
     const Vec3 na = mesh_.normal[a], nb = mesh_.normal[b];
     const Vec3 start =
         (mesh_.position[a] + mesh_.position[b]) * 0.5 + (nb * dot(d, nb) - na * dot(d, na)) * 0.125;
-    return project(field_, start, norm(d) / 4, options_.accuracy, p) && dot(p.normal, na + nb) > 0;
+    return project(field_, start, norm(d) / 2, options_.accuracy, p) && dot(p.normal, na + nb) > 0;
 }
 
 void Adapter::split_high_edges() {
@@ -210,8 +211,8 @@ bool Adapter::split(std::int32_t h, const SurfacePoint& point) {
     mesh_.position.push_back(point.position);
     mesh_.normal.push_back(point.normal);
     for (const std::int32_t e : {h, mesh_.twin(h)}) {
-        if (tests_.faces_outside(mesh_.from(e), vertex, mesh_.apex(e), 0) &&
-            tests_.faces_outside(vertex, mesh_.to(e), mesh_.apex(e), 0))
+        if (tests_.faces_outside(mesh_.from(e), vertex, mesh_.apex(e), 0, SF) &&
+            tests_.faces_outside(vertex, mesh_.to(e), mesh_.apex(e), 0, SF))
             continue;
         mesh_.position.pop_back();
         mesh_.normal.pop_back();

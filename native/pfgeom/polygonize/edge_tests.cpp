@@ -13,14 +13,14 @@ constexpr int kMostNeighbours = 10;  // of a vertex after a merge
 
 }  // namespace
 
-bool EdgeTests::faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest) const {
+bool EdgeTests::faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest, double facing) const {
     const Vec3 ab = mesh_.position[b] - mesh_.position[a], ac = mesh_.position[c] - mesh_.position[a];
     const Vec3 n = cross(ab, ac);
     const double area = norm(n);
     const double side = std::max({squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)});
     if (!(area > thinnest * side)) return false;
     for (const std::int32_t v : {a, b, c})
-        if (dot(n, mesh_.normal[v]) < kFacing * area) return false;
+        if (dot(n, mesh_.normal[v]) < facing * area) return false;
     return true;
 }
 

@@ -22,7 +22,7 @@ class EdgeTests {
     }
     /// Is the triangle counter-clockwise with respect to its vertices' normals, and its height above
     /// `thinnest` times its longest side?
-    bool faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest) const;
+    bool faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest, double facing=0.3) const;
     /// Merging from(h) into to(h): no arc above the limit, no triangle turned over, no sliver.
     bool may_merge(std::int32_t h, double limit) const;
     /// Better the other way? That is an arc within the tolerance in place of one that is not, or else

@@ -42,6 +42,16 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return counted_alloc(size);
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return counted_alloc(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+void operator delete(void* pointer, const std::nothrow_t&) noexcept {
+    counted_free(pointer);
+}
 void operator delete(void* pointer) noexcept {
     counted_free(pointer);
 }
