@@ -80,9 +80,13 @@ class LevelCoder {
     LevelCoder(EntropyCoder& coder, ContextMixer& mixer, const Surroundings& surroundings, Level& level)
         : coder_(coder), mixer_(mixer), s_(surroundings), level_(level) {}
 
-    void run() {
+    /// Leaves off where the budget of balls is exceeded.
+    void run(DeriveBudget& budget) {
         level_.z.resize(level_.centres.size());
-        for (std::size_t i = 0; i < level_.z.size() && !coder_.exhausted(); ++i) code(i);
+        for (std::size_t i = 0; i < level_.z.size() && !coder_.exhausted() && !budget.exceeded(); ++i) {
+            code(i);
+            if (level_.z[i] != 0) --budget.balls;
+        }
     }
 
   private:
@@ -262,7 +266,8 @@ FormatStatus code_hierarchy(EntropyCoder& coder, ContextMixer& mixer, Function& 
             return coder.exhausted() ? FormatStatus::truncated : FormatStatus::limit_exceeded;
         }
         const Surroundings surroundings = survey(field, level, task);
-        LevelCoder(coder, mixer, surroundings, level).run();
+        LevelCoder(coder, mixer, surroundings, level).run(budget);
+        if (budget.exceeded()) return FormatStatus::limit_exceeded;
         check = fingerprint(level, check);
         field.add(level);
     }

@@ -1,15 +1,15 @@
-// What can become of an island: candidates behind one interface, each of which proves itself on the bytes that it
-// would put into the file. The cheapest that holds the tolerance wins.
+// What can become of an island: candidates behind one interface, each of which proves itself on the bytes
+// that it would put into the file. The cheapest that holds the tolerance wins.
 #pragma once
-
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/bvh.h"
 #include "pfgeom/report/deviation.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace pfgeom {
 
@@ -19,30 +19,31 @@ struct Goal {
     const Bvh& bvh;            ///< of `mesh`
     double tolerance = 0;      ///< in the mesh's units
     Metric metric = Metric::max;
-    double diagonal = 0;       ///< of the whole input
-    bool inward = false;       ///< closed, and its normals point inwards
+    double diagonal = 0;  ///< of the whole input
+    bool inward = false;  ///< closed, and its normals point inwards
 };
 
 /// A representation that was written, read back, polygonized and measured.
 struct Outcome {
-    std::string candidate;             ///< "quadric", "hierarchy" or "mesh"
-    std::vector<Function> functions;   ///< of the one object; its nodes count from 0
+    std::string candidate;            ///< "quadric", "hierarchy" or "mesh"
+    std::vector<Function> functions;  ///< of the one object; its nodes count from 0
     Object object;
-    std::size_t bytes = 0;             ///< as a file of its own
-    TriangleMesh mesh;                 ///< the default mesh
+    std::size_t bytes = 0;  ///< as a file of its own
+    TriangleMesh mesh;      ///< the default mesh
     Deviation deviation;
     bool holds = false;
 };
 
 /// One ellipsoid.
 std::optional<Outcome> try_quadric(const Goal& goal, const Task& task);
-/// Base quadric + hierarchy of perturbations, for a closed island. Gives up when it needs more than `most_bytes`.
+/// Base quadric + hierarchy of perturbations, for a closed island. Gives up when it needs more than
+/// `most_bytes`.
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
 /// Simplified and coded mesh: any shape; always holds.
 Outcome try_mesh(const Goal& goal, const Task& task);
 
-/// Encodes a model of this one object, decodes it, polygonizes and measures: fills bytes, mesh, deviation, holds.
-/// `certify`: prove the maximum (metric max), else sample it.
+/// Encodes a model of this one object, decodes it, polygonizes and measures: fills bytes, mesh, deviation,
+/// holds. `certify`: prove the maximum (metric max), else sample it.
 void prove(const Goal& goal, Outcome& outcome, bool certify, const Task& task);
 
 /// The model of one outcome, or of several with their cavities.

@@ -1,12 +1,12 @@
 #include "pfgeom/compress/compress.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -56,7 +56,8 @@ class Compressor {
         if (n < kManyIslands) {
             for (std::size_t i = 0; i < n; ++i) {
                 const double at = static_cast<double>(i) / static_cast<double>(n);
-                const Task part = part_of(task_, 0.02 + 0.8 * at, 0.02 + 0.8 * (at + 1.0 / static_cast<double>(n)));
+                const Task part =
+                    part_of(task_, 0.02 + 0.8 * at, 0.02 + 0.8 * (at + 1.0 / static_cast<double>(n)));
                 part.report(0, "fit");
                 chosen_[i] = fit_island(prepared_.islands[i], part);
             }
@@ -82,23 +83,25 @@ class Compressor {
         if (mesh.faces.size() < kLeastFaces) return {};
         std::optional<Outcome> plain;
         if (mesh.faces.size() <= kQuickMesh) plain = try_mesh(goal, task);
-        std::optional<Outcome> best =
-            try_hierarchy(goal, plain ? plain->bytes : std::size_t{1} << 24, task);
+        std::optional<Outcome> best = try_hierarchy(goal, plain ? plain->bytes : std::size_t{1} << 24, task);
         if (plain && plain->holds && (!best || plain->bytes <= best->bytes)) best = std::move(plain);
         return best;
     }
 
     bool is_function(std::size_t i) const { return chosen_[i] && chosen_[i]->candidate != "mesh"; }
 
-    // Objects in order of nesting (a cavity stands behind what it is taken out of), then one mesh part for the rest.
+    // Objects in order of nesting (a cavity stands behind what it is taken out of), then one mesh part for
+    // the rest.
     void assemble() {
         const std::size_t n = prepared_.islands.size();
         model_.diagonal = prepared_.diagonal;
         std::vector<std::int32_t> object_of(n, -1);
         std::vector<std::size_t> rest;
         for (const std::size_t i : by_nesting()) {
-            if (!is_function(i)) rest.push_back(i);
-            else object_of[i] = add_function_object(i, object_of);
+            if (!is_function(i))
+                rest.push_back(i);
+            else
+                object_of[i] = add_function_object(i, object_of);
         }
         std::sort(rest.begin(), rest.end());
         if (!rest.empty()) add_mesh_part(rest);
@@ -108,18 +111,21 @@ class Compressor {
         std::vector<std::size_t> depth(prepared_.islands.size(), 0), order(depth.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             order[i] = i;
-            for (std::int32_t p = prepared_.islands[i].parent; p >= 0; p = prepared_.islands[static_cast<std::size_t>(p)].parent) {
+            for (std::int32_t p = prepared_.islands[i].parent; p >= 0;
+                 p = prepared_.islands[static_cast<std::size_t>(p)].parent) {
                 ++depth[i];
             }
         }
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
         return order;
     }
 
     std::int32_t add_function_object(std::size_t i, const std::vector<std::int32_t>& object_of) {
         Object object = chosen_[i]->object;
         const Island& island = prepared_.islands[i];
-        const std::int32_t outer = island.parent >= 0 ? object_of[static_cast<std::size_t>(island.parent)] : -1;
+        const std::int32_t outer =
+            island.parent >= 0 ? object_of[static_cast<std::size_t>(island.parent)] : -1;
         const auto offset = static_cast<std::int32_t>(model_.functions.size());
         auto& nodes = std::get<Solid>(object.shape).nodes;
         if (island.signed_volume < 0 && outer >= 0) {
@@ -151,8 +157,8 @@ class Compressor {
         model_.objects.push_back(std::move(outcome.object));
     }
 
-    // The promise is measured on the decoded bytes, against the input as it was given; its figures change a few
-    // bytes of the header only.
+    // The promise is measured on the decoded bytes, against the input as it was given; its figures change a
+    // few bytes of the header only.
     void finish() {
         model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
         const Result<Model> first = decode(encode(model_));
@@ -162,7 +168,8 @@ class Compressor {
         DeviationOptions options;
         options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, options.samples);
         if (options_.metric == Metric::max) options.certify_below = tolerance_;
-        result_.report.deviation = measure_deviation(prepared_.mesh, mesh, options, quiet(task_, task_.threads));
+        result_.report.deviation =
+            measure_deviation(prepared_.mesh, mesh, options, quiet(task_, task_.threads));
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
         model_.promise.bound_mesh = d.certified ? d.max_bound() : d.max();

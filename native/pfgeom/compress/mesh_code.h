@@ -5,7 +5,8 @@
 
 namespace pfgeom {
 
-/// The default mesh's chord tolerance in the world's units, and the code that stores one no larger than `chord`.
+/// The default mesh's chord tolerance in the world's units, and the code that stores one no larger than
+/// `chord`.
 double chord_of(const Model& model, const Object& object);
 std::uint8_t mesh_code_for(const Goal& goal, double chord);
 

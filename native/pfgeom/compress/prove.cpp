@@ -1,9 +1,9 @@
-#include <algorithm>
-
 #include "pfgeom/base/error.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/compress.h"
+
+#include <algorithm>
 
 namespace pfgeom {
 namespace {
@@ -45,8 +45,9 @@ void prove(const Goal& goal, Outcome& outcome, bool certify, const Task& task) {
     const Bvh bvh(outcome.mesh);
     outcome.deviation = measure_deviation(goal.mesh, goal.bvh, outcome.mesh, bvh, options, task);
     const Deviation& d = outcome.deviation;
-    outcome.holds = goal.metric == Metric::rms ? d.rms() <= goal.tolerance
-                                               : (certify && d.certified ? d.max_bound() : d.max()) <= goal.tolerance;
+    outcome.holds = goal.metric == Metric::rms
+                        ? d.rms() <= goal.tolerance
+                        : (certify && d.certified ? d.max_bound() : d.max()) <= goal.tolerance;
 }
 
 }  // namespace pfgeom

@@ -1,12 +1,12 @@
-#include <algorithm>
-#include <cmath>
-
 #include "pfgeom/base/error.h"
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/solid_field.h"
 #include "pfgeom/polygonize/polygonize.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -21,7 +21,8 @@ void check_options(const MeshOptions& options) {
     if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance))) {
         throw InvalidInput("the tolerance must be a positive number");
     }
-    if (options.resolution && (*options.resolution < kLeastResolution || *options.resolution > kMostResolution)) {
+    if (options.resolution &&
+        (*options.resolution < kLeastResolution || *options.resolution > kMostResolution)) {
         throw InvalidInput("the resolution must be from 8 to 4096");
     }
 }
@@ -48,13 +49,15 @@ PolygonizeOptions polygonize_options(const Model& model, const Object& object, c
     return result;
 }
 
-TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options, const Task& task) {
+TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
+                           const Task& task) {
     if (std::holds_alternative<MeshPart>(object.shape)) return mesh_of(object);
     const auto* solid = std::get_if<Solid>(&object.shape);
     if (solid == nullptr) throw InvalidInput("sheets cannot be polygonized yet");
     const bool complement = !solid->nodes.empty() && solid->nodes.back().kind == SetNode::Kind::complement;
     Solid shape = *solid;
-    if (complement) shape.nodes.pop_back();  // a complement fills the cube; its surface is that of its operand
+    if (complement)
+        shape.nodes.pop_back();  // a complement fills the cube; its surface is that of its operand
     const SolidField field(model, shape);
     TriangleMesh mesh = polygonize(field, polygonize_options(model, object, options), task);
     for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
@@ -105,7 +108,8 @@ FunctionCount count_functions(const Model& model) {
         if (const auto* part = std::get_if<MeshPart>(&object.shape)) {
             count.mesh_part_faces += static_cast<std::int64_t>(part->faces.size());
         } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
-            surface[static_cast<std::size_t>(sheet->surface)] = used[static_cast<std::size_t>(sheet->trim)] = 1;
+            surface[static_cast<std::size_t>(sheet->surface)] = used[static_cast<std::size_t>(sheet->trim)] =
+                1;
         } else {
             for (const SetNode& node : std::get<Solid>(object.shape).nodes) {
                 if (node.kind == SetNode::Kind::function) surface[static_cast<std::size_t>(node.a)] = 1;
@@ -118,7 +122,8 @@ FunctionCount count_functions(const Model& model) {
         count.separators += surface[i] == 0 && used[i] != 0 ? 1 : 0;
         count.perturbations += static_cast<std::int64_t>(model.functions[i].perturbations.size());
         for (const Level& level : model.functions[i].levels) {
-            count.perturbations += std::count_if(level.z.begin(), level.z.end(), [](std::int32_t z) { return z != 0; });
+            count.perturbations +=
+                std::count_if(level.z.begin(), level.z.end(), [](std::int32_t z) { return z != 0; });
         }
     }
     return count;

@@ -1,12 +1,12 @@
-// The search for the coarsest quantiser that holds the tolerance: fits are steered by the error at their own samples,
-// and every candidate is then proved on its bytes, which calibrates the next estimate.
-#include <algorithm>
-#include <cmath>
-
+// The search for the coarsest quantiser that holds the tolerance: fits are steered by the error at their own
+// samples, and every candidate is then proved on its bytes, which calibrates the next estimate.
 #include "pfgeom/base/reproducible.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/fit/hierarchy.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 constexpr int kMostFits = 8, kMostProofs = 4, kMostFitsOfMax = 4;
 constexpr double kChordOfMax = 0.12;  // of the tolerance
 
-// Fine levels have more centres, and with too few samples they are fitted to the samples instead of the surface
-// (armadillo near 1e-4: 500k samples instead of 200k save 3 %).
+// Fine levels have more centres, and with too few samples they are fitted to the samples instead of the
+// surface (armadillo near 1e-4: 500k samples instead of 200k save 3 %).
 std::size_t sample_count(const Goal& goal) {
     const double fine = std::clamp(2e-4 * goal.diagonal / goal.tolerance, 1.0, 2.5);
     const double count = std::clamp(20.0 * static_cast<double>(goal.mesh.faces.size()), 8e3, 2e5);
@@ -47,7 +47,9 @@ class Secant {
 class Search {
   public:
     Search(const Goal& goal, std::size_t most_bytes, const Task& task)
-        : goal_(goal), task_(task), target_(goal.mesh, sample_count(goal)),
+        : goal_(goal),
+          task_(task),
+          target_(goal.mesh, sample_count(goal)),
           tolerance_(goal.tolerance / target_.frame.half()) {
         options_.most_bits = 8.0 * static_cast<double>(most_bytes);
         options_.last_thin = 7;
@@ -56,12 +58,13 @@ class Search {
     std::optional<Outcome> run() { return goal_.metric == Metric::rms ? search_rms() : search_max(); }
 
   private:
-    // Quantiser of level 7 in eighths of an octave below the cube's unit, as a real number: the integer part is the
-    // step, the fraction raises lambda.
+    // Quantiser of level 7 in eighths of an octave below the cube's unit, as a real number: the integer part
+    // is the step, the fraction raises lambda.
     void set_fineness(double fineness) {
         const double code = std::ceil(std::clamp(fineness, 8.0, 250.0));
         options_.step_code = static_cast<int>(code);
-        // One eighth of an octave of the step changes the rms by 6.7 %, and so does 1.46 times the lambda (igea).
+        // One eighth of an octave of the step changes the rms by 6.7 %, and so does 1.46 times the lambda
+        // (igea).
         options_.lambda = base_lambda_ * (1 + 0.46 * (code - std::clamp(fineness, 8.0, 250.0)));
     }
 
@@ -90,8 +93,8 @@ class Search {
         return best;
     }
 
-    // Errors within the dead zone cost nothing; what is left beyond it after the last level is estimated at the
-    // samples, and corrected by what the proof measures.
+    // Errors within the dead zone cost nothing; what is left beyond it after the last level is estimated at
+    // the samples, and corrected by what the proof measures.
     std::optional<Outcome> search_max() {
         constexpr double kZone = 0.6, kMend = 0.8, kEnough = 0.9, kHopeless = 1.6;
         target_.add_vertices(goal_.mesh);

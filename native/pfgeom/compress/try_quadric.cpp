@@ -1,8 +1,8 @@
-#include <cmath>
-
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/fit/quadric.h"
+
+#include <cmath>
 
 namespace pfgeom {
 

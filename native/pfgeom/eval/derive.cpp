@@ -19,6 +19,7 @@ constexpr int kRootDepth = 3;       // all cells of this depth are looked at
 constexpr double kRough = 2.5;      // slack of the crossing test for cells larger than kRoughSize, where the
 constexpr double kRoughSize = 0.1;  // field is far from linear
 constexpr std::size_t kChunk = 512;
+constexpr std::size_t kBatch = 512;  // parents whose children are probed at a time
 
 double spacing(int depth) {
     return std::ldexp(2.0, -depth);
@@ -53,35 +54,58 @@ std::vector<CellIndex> all_cells(int depth) {
     return cells;
 }
 
+std::vector<CellIndex> children_of(std::span<const ProbedCell> parents) {
+    std::vector<CellIndex> children;
+    children.reserve(parents.size() * 8);
+    for (const ProbedCell& parent : parents) {
+        const CellIndex& c = parent.index;
+        for (int t = 0; t < 8; ++t) {
+            children.push_back({2 * c.x + (t >> 2), 2 * c.y + (t >> 1 & 1), 2 * c.z + (t & 1)});
+        }
+    }
+    return children;
+}
+
+// Calls visit(children) for a few parents at a time, so that memory is that of the cells that are kept.
+template <class Visit>
+void for_batches_of_children(std::span<const ProbedCell> parents, DeriveBudget& budget, Visit visit) {
+    for (std::size_t i = 0; i < parents.size() && !budget.exceeded(); i += kBatch) {
+        visit(children_of(parents.subspan(i, std::min(kBatch, parents.size() - i))));
+    }
+}
+
+// Appends those of `candidates` for which keep(jet, size) holds at their centre.
+template <class Keep>
+void probe(const FunctionField& field, const std::vector<CellIndex>& candidates, double size,
+           DeriveBudget& budget, const Task& task, Keep keep, std::vector<ProbedCell>& kept) {
+    budget.probes -= static_cast<std::int64_t>(candidates.size());
+    if (budget.exceeded()) return;
+    std::vector<Jet> jets(candidates.size());
+    parallel_chunks(candidates.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) jets[i] = field.jet(cell_centre(candidates[i], size));
+    });
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (keep(jets[i], size)) kept.push_back({candidates[i], jets[i]});
+    }
+    if (static_cast<std::int64_t>(kept.size()) > budget.cells) budget.probes = -1;
+}
+
 // Cells for which keep(jet, size) holds at their centre, and at the centres of all their ancestors from
 // kRootDepth on.
 template <class Keep>
 std::vector<ProbedCell> descend(const FunctionField& field, int depth, DeriveBudget& budget, const Task& task,
                                 Keep keep) {
     const int root = std::min(depth, kRootDepth);
-    std::vector<CellIndex> candidates = all_cells(root);
-    for (int d = root;; ++d) {
-        budget.probes -= static_cast<std::int64_t>(candidates.size());
-        if (budget.exceeded()) return {};
-        const double size = spacing(d);
-        std::vector<Jet> jets(candidates.size());
-        parallel_chunks(candidates.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) jets[i] = field.jet(cell_centre(candidates[i], size));
+    std::vector<ProbedCell> cells;
+    probe(field, all_cells(root), spacing(root), budget, task, keep, cells);
+    for (int d = root + 1; d <= depth; ++d) {
+        std::vector<ProbedCell> finer;
+        for_batches_of_children(cells, budget, [&](const std::vector<CellIndex>& children) {
+            probe(field, children, spacing(d), budget, task, keep, finer);
         });
-        std::vector<ProbedCell> kept;
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            if (keep(jets[i], size)) kept.push_back({candidates[i], jets[i]});
-        }
-        if (d == depth) return kept;
-        candidates.clear();
-        candidates.reserve(kept.size() * 8);
-        for (const ProbedCell& cell : kept) {
-            const CellIndex& c = cell.index;
-            for (int t = 0; t < 8; ++t) {
-                candidates.push_back({2 * c.x + (t >> 2), 2 * c.y + (t >> 1 & 1), 2 * c.z + (t & 1)});
-            }
-        }
+        cells.swap(finer);
     }
+    return cells;
 }
 
 struct Centre {
@@ -135,62 +159,83 @@ bool move_onto_surface(const FunctionField& field, const ProbedCell& cell, doubl
 }
 
 // Accepts centres in their order unless one that was accepted lies within `distance`.
-std::vector<Centre> thin_out(const std::vector<Centre>& centres, double distance) {
-    std::vector<Centre> kept;
-    std::vector<std::int32_t> next;  // of the same grid cell
-    CellTable first;
-    const double inverse = 1 / distance;
-    const auto crowded = [&](const Centre& c) {
-        const CellIndex at = CellIndex::of(c.point, inverse);
+class Thinning {
+  public:
+    explicit Thinning(double distance) : distance_(distance) {}
+
+    void offer(const Centre& c) {
+        if (crowded(c.point)) return;
+        std::int32_t& head = first_[CellIndex::of(c.point, 1 / distance_).key()];
+        next_.push_back(head);
+        head = static_cast<std::int32_t>(kept_.size());
+        kept_.push_back(c);
+    }
+    std::vector<Centre>& kept() { return kept_; }
+
+  private:
+    bool crowded(const Vec3& p) const {
+        const CellIndex at = CellIndex::of(p, 1 / distance_);
         for (int t = 0; t < 27; ++t) {
             const CellIndex cell{at.x + t / 9 - 1, at.y + t / 3 % 3 - 1, at.z + t % 3 - 1};
-            for (std::int32_t i = first.find(cell.key()); i >= 0; i = next[static_cast<std::size_t>(i)]) {
-                if (squared_norm(kept[static_cast<std::size_t>(i)].point - c.point) < distance * distance)
+            for (std::int32_t i = first_.find(cell.key()); i >= 0; i = next_[static_cast<std::size_t>(i)]) {
+                if (squared_norm(kept_[static_cast<std::size_t>(i)].point - p) < distance_ * distance_)
                     return true;
             }
         }
         return false;
-    };
-    for (const Centre& c : centres) {
-        if (crowded(c)) continue;
-        std::int32_t& head = first[CellIndex::of(c.point, inverse).key()];
-        next.push_back(head);
-        head = static_cast<std::int32_t>(kept.size());
-        kept.push_back(c);
     }
-    return kept;
-}
 
+    double distance_;
+    std::vector<Centre> kept_;
+    std::vector<std::int32_t> next_;  // of the same grid cell
+    CellTable first_;
+};
+
+// The cells of the finest depth, some eighths of all, are never held together.
 std::vector<Centre> sheet_centres(const FunctionField& field, int depth, DeriveBudget& budget,
                                   const Task& task) {
-    const std::vector<ProbedCell> cells =
-        descend(field, depth, budget, task, [depth](const Jet& jet, double size) {
-            const double l1 = std::abs(jet.gradient.x) + std::abs(jet.gradient.y) + std::abs(jet.gradient.z);
-            const double slack = size > kRoughSize && size > spacing(depth) ? kRough : kCrossing;
-            return std::abs(jet.value) <= slack * 0.5 * size * std::max(0.7, l1);
-        });
+    const auto crossed = [depth](const Jet& jet, double size) {
+        const double l1 = std::abs(jet.gradient.x) + std::abs(jet.gradient.y) + std::abs(jet.gradient.z);
+        const double slack = size > kRoughSize && size > spacing(depth) ? kRough : kCrossing;
+        return std::abs(jet.value) <= slack * 0.5 * size * std::max(0.7, l1);
+    };
     const double h = spacing(depth);
-    std::vector<Centre> moved(cells.size());
-    std::vector<std::uint8_t> stayed(cells.size());
-    parallel_chunks(cells.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            stayed[i] = move_onto_surface(field, cells[i], h, moved[i]) ? 1 : 0;
-    });
-    std::vector<Centre> centres;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (stayed[i] != 0) centres.push_back(moved[i]);
+    Thinning thinning(kThinning * h);
+    const auto move_and_offer = [&](const std::vector<ProbedCell>& cells) {
+        std::vector<Centre> moved(cells.size());
+        std::vector<std::uint8_t> stayed(cells.size());
+        parallel_chunks(cells.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                stayed[i] = move_onto_surface(field, cells[i], h, moved[i]) ? 1 : 0;
+        });
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (stayed[i] != 0) thinning.offer(moved[i]);
+        }
+        if (static_cast<std::int64_t>(thinning.kept().size()) > budget.centres) budget.probes = -1;
+    };
+    if (depth <= kRootDepth) {
+        move_and_offer(descend(field, depth, budget, task, crossed));
+    } else {
+        const std::vector<ProbedCell> parents = descend(field, depth - 1, budget, task, crossed);
+        for_batches_of_children(parents, budget, [&](const std::vector<CellIndex>& children) {
+            std::vector<ProbedCell> cells;
+            probe(field, children, h, budget, task, crossed, cells);
+            move_and_offer(cells);
+        });
     }
-    return thin_out(centres, kThinning * h);
+    return std::move(thinning.kept());
 }
 
 // Replaces the centres inside flagged cells by 3×3×3 lattice nodes.
-void apply_thin_flags(const std::vector<ProbedCell>& cells, const Level& level,
+void apply_thin_flags(const std::vector<ProbedCell>& cells, const Level& level, DeriveBudget& budget,
                       std::vector<Centre>& centres) {
     const double h = spacing(level.depth);
     CellTable flagged, nodes;
     std::vector<Centre> added;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (level.thin[i] == 0) continue;
+        if (static_cast<std::int64_t>(added.size()) > budget.centres) budget.probes = -1;
+        if (budget.exceeded()) return;
         const CellIndex& c = cells[i].index;
         flagged[c.key()] = 1;
         for (int t = 0; t < 27; ++t) {
@@ -236,7 +281,7 @@ Level empty_level(const HierarchyHead& head, int depth) {
 
 DeriveBudget DeriveBudget::of_bytes(std::size_t bytes) {
     const auto n = static_cast<std::int64_t>(bytes);
-    return {4096 + 64 * n, 100'000 + 1024 * n};
+    return {2048 + 32 * n, 512 + 6 * n, 2048 + 32 * n, 40'000 + 1024 * n};
 }
 
 std::vector<ProbedCell> thin_candidates(const FunctionField& field, int depth, DeriveBudget& budget,
@@ -258,7 +303,7 @@ void place_centres(const FunctionField& field, const HierarchyHead& head,
         return;
     }
     std::vector<Centre> centres = sheet_centres(field, level.depth, budget, task);
-    if (!level.thin.empty()) apply_thin_flags(cells, level, centres);
+    if (!level.thin.empty()) apply_thin_flags(cells, level, budget, centres);
     for (const Centre& c : centres) {
         level.centres.push_back(c.point);
         level.scale.push_back(c.scale);

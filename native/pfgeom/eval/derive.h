@@ -31,12 +31,15 @@ Level empty_level(const HierarchyHead& head, int depth);
 /// Work that deriving may still do: counted, not timed, so that a small file cannot ask for much on any
 /// machine.
 struct DeriveBudget {
-    std::int64_t centres = INT64_MAX;  ///< balls that may still be placed
+    std::int64_t centres = INT64_MAX;  ///< places that may still be derived
+    std::int64_t balls = INT64_MAX;    ///< form factors that may still be other than zero
+    std::int64_t cells = INT64_MAX;    ///< that may be held at a time
     std::int64_t probes = INT64_MAX;   ///< cells that may still be looked at
 
-    /// What a stream of so many bytes may ask for. Real files need 10-30 centres and 100-250 probes a byte.
+    /// What a stream of so many bytes may ask for, such that decoding stays within 16 KiB of memory a byte.
+    /// Real files need 5-25 centres, 1-3 balls, 3-10 cells and 100-250 probes a byte.
     static DeriveBudget of_bytes(std::size_t bytes);
-    bool exceeded() const { return centres < 0 || probes < 0; }
+    bool exceeded() const { return centres < 0 || balls < 0 || probes < 0; }
 };
 
 /// A cell of the octree over [-1,1]³ and the field at its centre.

@@ -1,12 +1,12 @@
 #include "pfgeom/eval/model_field.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/solid_field.h"
 #include "pfgeom/mesh/bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace pfgeom {
 namespace {

@@ -32,13 +32,20 @@ const FunctionField& SolidField::field(std::int32_t function) const {
 double SolidField::value(const Vec3& p, std::int32_t index) const {
     const SetNode& node = nodes_[static_cast<std::size_t>(index)];
     switch (node.kind) {
-        case Kind::function: return field(node.a).value(p);
-        case Kind::unite: return std::max(value(p, node.a), value(p, node.b));
-        case Kind::intersect: return std::min(value(p, node.a), value(p, node.b));
-        case Kind::complement: return -value(p, node.a);
-        case Kind::decide: return value(p, field(node.f).value(p) >= 0 ? node.a : node.b);
-        case Kind::inside: return kEverywhere;
-        case Kind::outside: break;
+        case Kind::function:
+            return field(node.a).value(p);
+        case Kind::unite:
+            return std::max(value(p, node.a), value(p, node.b));
+        case Kind::intersect:
+            return std::min(value(p, node.a), value(p, node.b));
+        case Kind::complement:
+            return -value(p, node.a);
+        case Kind::decide:
+            return value(p, field(node.f).value(p) >= 0 ? node.a : node.b);
+        case Kind::inside:
+            return kEverywhere;
+        case Kind::outside:
+            break;
     }
     return -kEverywhere;
 }
@@ -46,7 +53,8 @@ double SolidField::value(const Vec3& p, std::int32_t index) const {
 Jet SolidField::jet(const Vec3& p, std::int32_t index) const {
     const SetNode& node = nodes_[static_cast<std::size_t>(index)];
     switch (node.kind) {
-        case Kind::function: return field(node.a).jet(p);
+        case Kind::function:
+            return field(node.a).jet(p);
         case Kind::unite:
         case Kind::intersect: {
             const Jet a = jet(p, node.a), b = jet(p, node.b);
@@ -56,9 +64,12 @@ Jet SolidField::jet(const Vec3& p, std::int32_t index) const {
             const Jet a = jet(p, node.a);
             return {-a.value, -a.gradient};
         }
-        case Kind::decide: return jet(p, field(node.f).value(p) >= 0 ? node.a : node.b);
-        case Kind::inside: return {kEverywhere, {}};
-        case Kind::outside: break;
+        case Kind::decide:
+            return jet(p, field(node.f).value(p) >= 0 ? node.a : node.b);
+        case Kind::inside:
+            return {kEverywhere, {}};
+        case Kind::outside:
+            break;
     }
     return {-kEverywhere, {}};
 }
@@ -67,7 +78,8 @@ Interval SolidField::range(const Box& box, std::int32_t index) const {
     const SetNode& node = nodes_[static_cast<std::size_t>(index)];
     const auto both = [&] { return std::pair(range(box, node.a), range(box, node.b)); };
     switch (node.kind) {
-        case Kind::function: return field(node.a).range(box);
+        case Kind::function:
+            return field(node.a).range(box);
         case Kind::unite: {
             const auto [a, b] = both();
             return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
@@ -87,8 +99,10 @@ Interval SolidField::range(const Box& box, std::int32_t index) const {
             const auto [a, b] = both();
             return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
         }
-        case Kind::inside: return {kEverywhere, kEverywhere};
-        case Kind::outside: break;
+        case Kind::inside:
+            return {kEverywhere, kEverywhere};
+        case Kind::outside:
+            break;
     }
     return {-kEverywhere, -kEverywhere};
 }

@@ -2,10 +2,10 @@
 // (paper eq. 6, 7 with ψ = max, min).
 #pragma once
 
-#include <vector>
-
 #include "pfgeom/eval/function_field.h"
 #include "pfgeom/eval/scalar_field.h"
+
+#include <vector>
 
 namespace pfgeom {
 

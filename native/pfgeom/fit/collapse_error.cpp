@@ -133,8 +133,8 @@ double CollapseError::forward(const Patch& patch, double limit) const {
     return by_max ? std::sqrt(cost) : cost;
 }
 
-// The moving vertex and its edges: they stick out furthest. Where only one triangle of the patch has an edge nothing
-// else holds the surface back, and it is looked at closely.
+// The moving vertex and its edges: they stick out furthest. Where only one triangle of the patch has an edge
+// nothing else holds the surface back, and it is looked at closely.
 double CollapseError::rims(const Patch& patch, double limit) const {
     double worst = 0;
     for (std::size_t row = 0; row < patch.triangles.size(); ++row) {
@@ -143,8 +143,8 @@ double CollapseError::rims(const Patch& patch, double limit) const {
             const auto uses = [&](const std::array<Vec3, 3>& t) { return t[1] == q || t[2] == q; };
             const bool rim = std::count_if(patch.triangles.begin(), patch.triangles.end(), uses) == 1;
             if (!rim && k == 2) continue;  // another triangle's first edge
-            const double close = std::ceil(norm(q - p) / (rim ? tolerance_ : 4 * tolerance_));
-            const int n = static_cast<int>(std::min(close, rim ? 100.0 : 8.0));
+            const double close = std::ceil(norm(q - p) / (rim ? tolerance_ : 2 * tolerance_));
+            const int n = static_cast<int>(std::min(close, rim ? 100.0 : 40.0));
             std::int32_t hint = -1;
             for (int i = 0; i < n; ++i) {
                 const Vec3 at = p + (q - p) * (static_cast<double>(i) / n);
@@ -158,8 +158,8 @@ double CollapseError::rims(const Patch& patch, double limit) const {
     return std::sqrt(worst);
 }
 
-// Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface they
-// change far more slowly, as slope_ has it.
+// Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface
+// they change far more slowly, as slope_ has it.
 double CollapseError::farthest(const std::array<Vec3, 3>& triangle, double limit, std::int32_t hint) const {
     const double finest = std::max(kFinest * tolerance_, longest(triangle) / parts_);
     double worst = 0;

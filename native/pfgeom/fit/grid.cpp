@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMendingRounds = 4;
+// With more vertices than this over the limit the grid is too coarse, and mending would only cost time.
+constexpr double kHopeless = 0.01;
 constexpr std::size_t kMostTrials = 10;
 // A coarser lattice must leave some of the limit to the neighbours.
 constexpr double kSlack = 0.92;
@@ -39,12 +41,14 @@ class Snapper {
     Snapper(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid)
         : mesh_(mesh), error_(error), limits_(limits), grid_(grid) {}
 
-    void snap(std::int32_t v, double limit) {
+    /// Returns whether the limit is kept.
+    bool snap(std::int32_t v, double limit) {
         const Vec3 normal = normal_at(mesh_, v);
         for (int level = kCoarsest; level >= 0; --level) {
-            if (try_level(v, normal, level, level > 0 ? kSlack * limit : limit)) return;
+            if (try_level(v, normal, level, level > 0 ? kSlack * limit : limit)) return true;
         }
         take_least_evil(v);
+        return false;
     }
 
     /// Measures finely; moves what is over the limit, and its neighbours, from grid point to grid point while
@@ -63,7 +67,6 @@ class Snapper {
                 }
                 failed.push_back(v);
             }
-            if(getenv("VERB")) fprintf(stderr,"mend round %d of %zu: %zu failed @%.1f\n",round,open.size(),failed.size(),clock()/1e6);
             open = std::move(failed);
         }
         return open.empty();
@@ -121,8 +124,8 @@ class Snapper {
                take(v, best);
     }
 
-    // Nothing near the vertex keeps the limit now: the least evil, until its neighbours have come onto the grid.
-    // What is near: around its place, and around the one that would fit best.
+    // Nothing near the vertex keeps the limit now: the least evil, until its neighbours have come onto the
+    // grid. What is near: around its place, and around the one that would fit best.
     void take_least_evil(std::int32_t v) {
         struct Candidate {
             double cost;
@@ -130,7 +133,8 @@ class Snapper {
         };
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
         std::vector<Candidate> candidates;
-        for (const GridPoint& middle : {grid_.nearest(mesh_.point(v)), grid_.nearest(error_.fitted(patch_))}) {
+        for (const GridPoint& middle :
+             {grid_.nearest(mesh_.point(v)), grid_.nearest(error_.fitted(patch_))}) {
             for (std::int32_t i = 0; i < 27; ++i) {
                 const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
                 candidates.push_back({cost(v, q, kInfinity), q});
@@ -180,9 +184,10 @@ Grid Grid::around(const Box& box, double step) {
 bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
                    const Task& task) {
     Snapper snapper(mesh, error, limits, grid);
-    std::size_t left = 0;
+    std::size_t left = 0, failed = 0;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
         left += mesh.faces_at(static_cast<std::int32_t>(v)).empty() ? 0 : 1;
+    const std::size_t count = left;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const auto v = static_cast<std::int32_t>(i);
         if (mesh.faces_at(v).empty()) continue;
@@ -191,10 +196,11 @@ bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimit
         if (limits.metric == Metric::rms) {
             limit = (limit * limit - error.mean_square()) * error.total_weight() / static_cast<double>(left);
         }
-        snapper.snap(v, limit);
+        failed += snapper.snap(v, limit) ? 0 : 1;
         --left;
     }
     if (limits.metric != Metric::max) return true;
+    if (failed > kHopeless * static_cast<double>(count)) return false;
     error.measure_finely();
     return snapper.mend(limits.forward, task);
 }

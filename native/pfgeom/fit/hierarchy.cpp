@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kLeastGradient = 0.1;
 constexpr std::size_t kSamplesPerCentre = 16, kLeastSamples = 30'000;
-// With a dead zone: once fewer than this share of the samples is out of `enough`, the levels mend. Excesses are small
-// then, and so must be the weight of the bits.
+// With a dead zone: once fewer than this share of the samples is out of `enough`, the levels mend. Excesses
+// are small then, and so must be the weight of the bits.
 constexpr double kMendShare = 0.1, kMendLambda = 0.002;
 constexpr int kLatticeSweeps = 25, kSheetSweeps = 12, kIntegerSweeps = 12;
 
@@ -39,6 +39,7 @@ class Fitter {
         });
         lambda_ = natural_lambda(fit.function.head);
         for (int depth = kFirstLevel; depth <= options_.last_level; ++depth) {
+            if (!affordable(fit)) break;
             Level level = empty_level(fit.function.head, depth);
             if (!fit_level(fit.function.head, level, fit.bits)) break;
             fit.function.levels.push_back(std::move(level));
@@ -64,6 +65,15 @@ class Fitter {
         head.ratio_code = static_cast<std::uint8_t>(options_.ratio_code);
         head.first_sheet = static_cast<std::uint8_t>(options_.first_sheet);
         return head;
+    }
+
+    // Whether a reader would still derive the next level, which has about four times the centres of the last.
+    static bool affordable(const HierarchyFit& fit) {
+        if (fit.function.levels.empty()) return true;
+        double centres = 4.0 * static_cast<double>(fit.function.levels.back().centres.size());
+        for (const Level& level : fit.function.levels) centres += static_cast<double>(level.centres.size());
+        const auto bytes = static_cast<std::size_t>(fit.bits / 8);
+        return centres <= static_cast<double>(DeriveBudget::of_bytes(bytes).centres);
     }
 
     // The slope -dD/dbits of a uniform quantiser with level 7's step: D per coefficient is step² / 12 of its

@@ -12,11 +12,11 @@ struct HierarchyOptions {
     int ratio_code = 74;  ///< see HierarchyHead
     int first_sheet = 4;
     int last_level = 9;
-    int last_thin = 6;       ///< finest level that may flag thin cells
-    double lambda = 0.3;    ///< weight of bits against squared error, relative to the step's natural slope
-    double dead_zone = 0;    ///< > 0: on the sheet levels only errors beyond this (cube's units) count
-    double mend_zone = 0;    ///< the same once few samples are out: from then on levels only mend those
-    double enough = 0;       ///< no further level once no sample's error exceeds this
+    int last_thin = 6;         ///< finest level that may flag thin cells
+    double lambda = 0.3;       ///< weight of bits against squared error, relative to the step's natural slope
+    double dead_zone = 0;      ///< > 0: on the sheet levels only errors beyond this (cube's units) count
+    double mend_zone = 0;      ///< the same once few samples are out: from then on levels only mend those
+    double enough = 0;         ///< no further level once no sample's error exceeds this
     double most_bits = 1e300;  ///< give up (no levels) once the estimate exceeds this
 };
 

@@ -1,12 +1,12 @@
 // The inverse pass: sums over samples from which a quadric is solved without touching the samples again.
 // Source: the paper's section "Method" (systems solved at each octree level, from the leaves to the root).
-// Departure: ten coefficients by least squares with normals instead of nine points by Cramer's rule, which fails for
-// quadrics through the origin and amplifies noise.
+// Departure: ten coefficients by least squares with normals instead of nine points by Cramer's rule, which
+// fails for quadrics through the origin and amplifies noise.
 #pragma once
 
-#include <array>
-
 #include "pfgeom/function/quadric.h"
+
+#include <array>
 
 namespace pfgeom {
 
@@ -19,9 +19,8 @@ class Moments {
     /// The same samples seen from the child's or parent's frame: x = scale · x' + shift for each coordinate.
     Moments in_frame(double scale, const Vec3& shift) const;
 
-    /// argmin Σ w [ (q·m)² + normal_weight |∇(q·m) + n|² ]: one symmetric 10×10 system. n points outwards, where q
-    /// falls. A rank-deficient system gives the solution of
-    /// least norm.
+    /// argmin Σ w [ (q·m)² + normal_weight |∇(q·m) + n|² ]: one symmetric 10×10 system. n points outwards,
+    /// where q falls. A rank-deficient system gives the solution of least norm.
     Quadric solve(double normal_weight) const;
     double weight() const { return weight_; }
 

@@ -1,9 +1,9 @@
 #include "pfgeom/fit/quadric.h"
 
+#include "pfgeom/fit/moments.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "pfgeom/fit/moments.h"
 
 namespace pfgeom {
 namespace {
@@ -22,7 +22,8 @@ bool is_ellipsoid(const Quadric& q) {
 // The gradient's length is one on average on the surface; coefficients are multiples of the step.
 Quadric scaled_and_rounded(Quadric q, const FitTarget& target, double step) {
     double length = 0;
-    for (const Vec3& p : target.points) length += norm(q.gradient(p)) / static_cast<double>(target.points.size());
+    for (const Vec3& p : target.points)
+        length += norm(q.gradient(p)) / static_cast<double>(target.points.size());
     for (double& c : q.c) c = std::floor(c / length / step + 0.5) * step;
     return q;
 }
@@ -31,7 +32,8 @@ Quadric scaled_and_rounded(Quadric q, const FitTarget& target, double step) {
 
 std::optional<QuadricFit> fit_quadric(const FitTarget& target, double step) {
     Moments moments;
-    for (std::size_t i = 0; i < target.points.size(); ++i) moments.add(target.points[i], target.normals[i], 1);
+    for (std::size_t i = 0; i < target.points.size(); ++i)
+        moments.add(target.points[i], target.normals[i], 1);
     const Quadric raw = moments.solve(kNormalWeight);
     if (!std::all_of(raw.c.begin(), raw.c.end(), [](double c) { return std::isfinite(c); })) return {};
     if (!is_ellipsoid(raw)) return {};

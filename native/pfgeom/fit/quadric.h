@@ -1,10 +1,10 @@
 // One island as one quadric: the least case of the method.
 #pragma once
 
-#include <optional>
-
 #include "pfgeom/fit/target.h"
 #include "pfgeom/function/quadric.h"
+
+#include <optional>
 
 namespace pfgeom {
 

@@ -143,8 +143,7 @@ double Quantiser::improve_in_zones(std::size_t i, double lambda) {
 double Quantiser::saving(std::size_t j, std::int32_t by, double slope, double lambda) const {
     const double d = jump(j, by);
     const double gain = zones_ ? error(j, 0) - error(j, d) : (2 * slope - d * columns_.energy[j]) * d;
-    return gain +
-           lambda * (rate_.bits(j, level_.z[j]) - rate_.bits(j, level_.z[j] + by));
+    return gain + lambda * (rate_.bits(j, level_.z[j]) - rate_.bits(j, level_.z[j] + by));
 }
 
 // The change of a neighbour that goes best with changing coefficient i, whose column is spread over the

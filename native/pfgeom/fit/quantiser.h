@@ -25,8 +25,8 @@ class Quantiser {
     /// Real-valued Gauss-Seidel sweeps with a ridge of 5 % of the mean energy, then rounding into level.z.
     void relax(int sweeps, const Task& task);
     /// Integer sweeps: minimises distortion + lambda · bits. Returns the estimated bits.
-    /// `zones`: the samples' intervals are wide, so that most residuals are zero and no quadratic tells what a
-    /// change does: each is evaluated.
+    /// `zones`: the samples' intervals are wide, so that most residuals are zero and no quadratic tells what
+    /// a change does: each is evaluated.
     double optimise(int sweeps, double lambda, bool zones, const Task& task);
 
   private:

@@ -14,7 +14,7 @@ namespace {
 // Bytes at 1e-3 of the diagonal for a step of 0.6, 0.8 and 1 tolerances: 1839, 1780, 1749 (os-plane), 1561,
 // 1530, 1502 (beetle-alt); at 1 the vertices no longer find places on the grid that keep the tolerance.
 // A step that fails is followed by the next.
-constexpr std::array<double, 3> kSteps{0.8, 0.5, 0.25};
+constexpr std::array<double, 3> kSteps{0.8, 0.5, 0.3};
 // What collapses may use, so that vertices find places on coarse lattices; of 0.75 .. 0.9 tried.
 constexpr double kCollapseShare = 0.85;
 // The third round takes off another percent (beetle-alt: 1085, 1019, 1010 faces).
@@ -68,7 +68,6 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
         CollapseError snapped_error = error;
         const bool kept = snap_vertices(snapped, snapped_error, outer, grid, task);
         object = object_of(snapped.result(), grid);
-        if(getenv("VERB")) fprintf(stderr,"step %g kept %d t %.1f\n",step,(int)kept,clock()/1e6);
         if (kept) break;
     }
     task.report(1, "simplify");

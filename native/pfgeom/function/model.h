@@ -98,7 +98,9 @@ struct Similarity {
     std::array<Vec3, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     Vec3 translation;
 
-    Vec3 apply(const Vec3& p) const { return scale * Vec3{dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)} + translation; }
+    Vec3 apply(const Vec3& p) const {
+        return scale * Vec3{dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)} + translation;
+    }
     Vec3 apply_inverse(const Vec3& p) const { return turn_back((p - translation) / scale); }
     /// The transposed rotation: of gradients and directions.
     Vec3 turn_back(const Vec3& d) const { return d.x * rows[0] + d.y * rows[1] + d.z * rows[2]; }
@@ -109,8 +111,8 @@ struct Similarity {
 struct Object {
     Frame frame;  ///< of the functions' cube, or of the mesh part's grid
     std::variant<Solid, Sheet, MeshPart> shape;
-    /// The object (an earlier one) that this one is taken out of, or -1. Its own solid is the hollow; the faces
-    /// of its mesh point inwards. A solid whose root is a complement and that is no cavity came from an
+    /// The object (an earlier one) that this one is taken out of, or -1. Its own solid is the hollow; the
+    /// faces of its mesh point inwards. A solid whose root is a complement and that is no cavity came from an
     /// inside-out mesh: its faces point inwards too, but what it encloses counts as inside.
     std::int32_t cavity_of = -1;
     std::vector<Similarity> instances;  ///< further copies, beside the one that `frame` places
@@ -133,8 +135,8 @@ struct Model {
     std::vector<Object> objects;
     double diagonal = 0;  ///< of the input's bounding box
     Promise promise;
-    std::vector<std::string> names;       ///< optional: of the objects, or of the whole
-    std::vector<double> world_transform;  ///< optional: 16 values, row-major, the last row 0 0 0 1
+    std::vector<std::string> names;         ///< optional: of the objects, or of the whole
+    std::vector<double> world_transform;    ///< optional: 16 values, row-major, the last row 0 0 0 1
     std::vector<std::int32_t> face_groups;  ///< optional: a label >= 0 for each face of the default mesh
 };
 

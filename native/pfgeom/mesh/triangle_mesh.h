@@ -1,12 +1,12 @@
 // A triangle mesh as plain arrays: any shape, no invariant but that indices are in range.
 #pragma once
 
+#include "pfgeom/base/box.h"
+#include "pfgeom/base/triangle.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "pfgeom/base/box.h"
-#include "pfgeom/base/triangle.h"
 
 namespace pfgeom {
 

@@ -13,7 +13,8 @@ constexpr int kMostNeighbours = 10;  // of a vertex after a merge
 
 }  // namespace
 
-bool EdgeTests::faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest, double facing) const {
+bool EdgeTests::faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest,
+                              double facing) const {
     const Vec3 ab = mesh_.position[b] - mesh_.position[a], ac = mesh_.position[c] - mesh_.position[a];
     const Vec3 n = cross(ab, ac);
     const double area = norm(n);
@@ -33,7 +34,7 @@ bool EdgeTests::may_merge(std::int32_t h, double limit) const {
         ++neighbours;
         const std::int32_t x = mesh_.to(spoke), y = mesh_.apex(spoke);
         if (x != b && height(b, x) > limit) return false;
-        if (x != b && y != b && !faces_outside(b, x, y, kThinnest)) return false;
+        if (x != b && y != b && !faces_outside(b, x, y, kThinnest, kFacing)) return false;
         spoke = mesh_.twin(SurfaceMesh::previous(spoke));
     } while (spoke != h);
     return neighbours <= kMostNeighbours;
@@ -51,7 +52,8 @@ bool EdgeTests::should_flip(std::int32_t h, double tolerance) const {
     const bool lower = then_low && !now_low;
     if (!lower && !(rounder && then_low == now_low)) return false;
     const double thinnest = lower ? kThinnest : 0;
-    if (!faces_outside(c, d, b, thinnest) || !faces_outside(d, c, a, thinnest)) return false;
+    if (!faces_outside(c, d, b, thinnest, kFacing) || !faces_outside(d, c, a, thinnest, kFacing))
+        return false;
     return c != d && mesh_.valence(h) > 3 && mesh_.valence(g) > 3 &&
            !mesh_.joined(SurfaceMesh::previous(h), d);
 }

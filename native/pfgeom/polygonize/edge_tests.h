@@ -20,9 +20,9 @@ class EdgeTests {
     double squared_length(std::int32_t h) const {
         return squared_norm(mesh_.position[mesh_.to(h)] - mesh_.position[mesh_.from(h)]);
     }
-    /// Is the triangle counter-clockwise with respect to its vertices' normals, and its height above
+    /// Is the cosine between the triangle and its vertices' normals at least `facing`, and its height above
     /// `thinnest` times its longest side?
-    bool faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest, double facing=0.3) const;
+    bool faces_outside(std::int32_t a, std::int32_t b, std::int32_t c, double thinnest, double facing) const;
     /// Merging from(h) into to(h): no arc above the limit, no triangle turned over, no sliver.
     bool may_merge(std::int32_t h, double limit) const;
     /// Better the other way? That is an arc within the tolerance in place of one that is not, or else

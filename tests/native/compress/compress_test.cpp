@@ -3,14 +3,15 @@
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/eval/model_field.h"
 #include "pfgeom/mesh/mesh.h"
-
 #include "shapes.h"
+
 #include <gtest/gtest.h>
 
 namespace pfgeom {
 namespace {
 
-Compressed compressed(const TriangleMesh& mesh, double tolerance, Metric metric = Metric::max, int threads = 0) {
+Compressed compressed(const TriangleMesh& mesh, double tolerance, Metric metric = Metric::max,
+                      int threads = 0) {
     Task task;
     task.threads = threads;
     CompressOptions options;
@@ -88,9 +89,11 @@ TEST(Compress, SmoothFreeFormsBecomeAHierarchy) {
 }
 
 TEST(Compress, BytesDoNotDependOnThreads) {
-    for (const Shape& shape : {Shape{"bumpy", shapes::bumpy_sphere(3)}, Shape{"scene", shapes::scene_of_islands(12, 2)}}) {
+    for (const Shape& shape :
+         {Shape{"bumpy", shapes::bumpy_sphere(3)}, Shape{"scene", shapes::scene_of_islands(12, 2)}}) {
         SCOPED_TRACE(shape.name);
-        EXPECT_EQ(compressed(shape.mesh, 1e-2, Metric::max, 1).bytes, compressed(shape.mesh, 1e-2, Metric::max, 2).bytes);
+        EXPECT_EQ(compressed(shape.mesh, 1e-2, Metric::max, 1).bytes,
+                  compressed(shape.mesh, 1e-2, Metric::max, 2).bytes);
     }
 }
 
@@ -136,7 +139,8 @@ TEST(Compress, CanBeCancelled) {
 TEST(ToMesh, ResolutionAndToleranceSteerTheMesh) {
     const Compressed c = compressed(shapes::torus(1, 0.4, 32, 16), 5e-3, Metric::rms);
     if (count_functions(c.model).surface == 0) GTEST_SKIP() << "the torus became a mesh part";
-    const std::size_t coarse = to_mesh(c.model, {{}, 16}).faces.size(), fine = to_mesh(c.model, {{}, 64}).faces.size();
+    const std::size_t coarse = to_mesh(c.model, {{}, 16}).faces.size(),
+                      fine = to_mesh(c.model, {{}, 64}).faces.size();
     EXPECT_LT(4 * coarse, fine);
     EXPECT_LT(to_mesh(c.model, {1e-2, {}}).faces.size(), to_mesh(c.model, {1e-4, {}}).faces.size());
     EXPECT_THROW(to_mesh(c.model, {1e-2, 32}), InvalidInput);

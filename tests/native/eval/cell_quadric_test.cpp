@@ -1,6 +1,7 @@
 #include "pfgeom/eval/cell_quadric.h"
 
 #include "eval/random_functions.h"
+
 #include <gtest/gtest.h>
 
 namespace pfgeom {
@@ -13,7 +14,8 @@ TEST(CellQuadric, OctreeStepIsTheSubstitution) {
     Random random(1);
     for (int trial = 0; trial < 1000; ++trial) {
         const Quadric q = random_quadric(random);
-        const int i = random.below(2) != 0 ? 1 : -1, j = random.below(2) != 0 ? 1 : -1, k = random.below(2) != 0 ? 1 : -1;
+        const int i = random.below(2) != 0 ? 1 : -1, j = random.below(2) != 0 ? 1 : -1,
+                  k = random.below(2) != 0 ? 1 : -1;
         const Quadric child = child_quadric(q, i, j, k);
         const Vec3 p = random_point(random);
         const Vec3 in_parent = p / 2 + Vec3{i / 2.0, j / 2.0, k / 2.0};

@@ -1,6 +1,7 @@
 #include "pfgeom/eval/function_field.h"
 
 #include "eval/random_functions.h"
+
 #include <gtest/gtest.h>
 
 namespace pfgeom {

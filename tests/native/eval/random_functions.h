@@ -1,10 +1,10 @@
 // Random functions for property tests.
 #pragma once
 
-#include <cmath>
-
 #include "pfgeom/base/random.h"
 #include "pfgeom/function/model.h"
+
+#include <cmath>
 
 namespace pfgeom::test {
 
@@ -42,7 +42,8 @@ inline Function random_function(Random& random) {
     Function f;
     f.base = {{-1, -1.2, -0.9, 0.1, 0, 0.05, 0, 0.1, 0, 0.4}};
     f.perturbations.push_back({0.3, {{-4, -5, -6, 0, 0, 0, 1, 0, 2, 0.2}}});
-    for (int depth = 2; depth <= 5; ++depth) f.levels.push_back(random_level(random, depth, 60U << (depth - 2)));
+    for (int depth = 2; depth <= 5; ++depth)
+        f.levels.push_back(random_level(random, depth, 60U << (depth - 2)));
     return f;
 }
 

@@ -1,7 +1,8 @@
-#include "pfgeom/eval/model_field.h"
 #include "pfgeom/eval/solid_field.h"
 
 #include "eval/random_functions.h"
+#include "pfgeom/eval/model_field.h"
+
 #include <gtest/gtest.h>
 
 namespace pfgeom {
@@ -39,7 +40,8 @@ TEST(SolidField, SetOperationsAreThoseOfSets) {
     const std::vector<Case> cases{
         {{a, b, {Kind::unite, 0, 1, -1}}, [](bool x, bool y) { return x || y; }},
         {{a, b, {Kind::intersect, 0, 1, -1}}, [](bool x, bool y) { return x && y; }},
-        {{a, b, {Kind::complement, 1, -1, -1}, {Kind::intersect, 0, 2, -1}}, [](bool x, bool y) { return x && !y; }},
+        {{a, b, {Kind::complement, 1, -1, -1}, {Kind::intersect, 0, 2, -1}},
+         [](bool x, bool y) { return x && !y; }},
         {{b, {Kind::outside, -1, -1, -1}, {Kind::decide, 0, 1, 0}}, [](bool x, bool y) { return x && y; }},
         {{a, {Kind::inside, -1, -1, -1}, {Kind::unite, 0, 1, -1}}, [](bool, bool) { return true; }}};
     Random random(1);
@@ -72,7 +74,8 @@ TEST(ModelField, CavitiesAreTakenOutAndIslandsInsideThemCount) {
     EXPECT_FALSE(field.contains({0.5, 0, 0}));
     EXPECT_TRUE(field.contains({0.1, 0, 0}));
     EXPECT_FALSE(field.contains({5, 0, 0}));
-    EXPECT_LT(dot(field.gradient({0.58, 0, 0}), Vec3{-1, 0, 0}), 0) << "outwards from the hollow is into the solid";
+    EXPECT_LT(dot(field.gradient({0.58, 0, 0}), Vec3{-1, 0, 0}), 0)
+        << "outwards from the hollow is into the solid";
 }
 
 TEST(ModelField, InstancesAreCopies) {

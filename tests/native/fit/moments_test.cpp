@@ -1,6 +1,7 @@
 #include "pfgeom/fit/moments.h"
 
 #include "eval/random_functions.h"
+
 #include <gtest/gtest.h>
 
 namespace pfgeom {
@@ -50,7 +51,8 @@ TEST(Moments, ParentIsTheSumOfItsTransformedChildren) {
     const auto samples = ellipsoid({0.7, 0.6, 0.5}, {0, 0.1, 0}, 400);
     Moments direct, children;
     for (int octant = 0; octant < 8; ++octant) {
-        const Vec3 shift{(octant & 1) != 0 ? 0.5 : -0.5, (octant & 2) != 0 ? 0.5 : -0.5, (octant & 4) != 0 ? 0.5 : -0.5};
+        const Vec3 shift{(octant & 1) != 0 ? 0.5 : -0.5, (octant & 2) != 0 ? 0.5 : -0.5,
+                         (octant & 4) != 0 ? 0.5 : -0.5};
         Moments child;
         for (const Sample& s : samples) {
             const int side = (s.point.x >= 0 ? 1 : 0) + (s.point.y >= 0 ? 2 : 0) + (s.point.z >= 0 ? 4 : 0);
