@@ -12,6 +12,7 @@ import subprocess
 import sys
 from collections import defaultdict
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -42,15 +43,22 @@ def build(preset: str, jobs: int) -> Path:
 
 def hashes(jobs: int) -> Iterator[tuple[str, str, str]]:
     """(build, scene, hash), for every build that can be made here."""
+    runs: list[tuple[str, list[str]]] = []
     for preset, (compiler, thread_counts, emulator) in PRESETS.items():
         if missing := [tool for tool in [compiler, *emulator[:1]] if not shutil.which(tool)]:
             print(f"{preset}: left out, no {missing[0]} here")
             continue
-        driver = build(preset, jobs)
+        driver = str(build(preset, jobs))
         for threads in thread_counts:
-            for line in run(*emulator, str(driver), str(threads)).splitlines():
-                scene, digest = line.split()
-                yield f"{preset}, {threads} thread{'s' if threads > 1 else ''}", scene, digest
+            name = f"{preset}, {threads} thread{'s' if threads > 1 else ''}"
+            runs.append((name, [*emulator, driver, str(threads)]))
+    runs.reverse()  # the slow emulator first
+    with ThreadPoolExecutor(jobs) as pool:
+        outputs = list(pool.map(lambda item: run(*item[1]), runs))
+    for (name, _), output in zip(runs, outputs, strict=True):
+        for line in output.splitlines():
+            scene, digest = line.split()
+            yield name, scene, digest
 
 
 def main() -> int:

@@ -47,7 +47,9 @@ class Compressor {
     }
 
     Goal goal_of(const TriangleMesh& mesh, const Bvh& bvh, bool inward) const {
-        return {mesh, bvh, tolerance_, options_.metric, prepared_.diagonal, inward};
+        // Where seams were closed, the prepared mesh differs from the input by up to their distance.
+        const double moved = prepared_.defects.seam_edges > 0 ? kSeamShare * tolerance_ : 0;
+        return {mesh, bvh, tolerance_ - moved, options_.metric, prepared_.diagonal, inward};
     }
 
     void fit_islands() {
@@ -168,8 +170,7 @@ class Compressor {
         DeviationOptions options;
         options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, options.samples);
         if (options_.metric == Metric::max) options.certify_below = tolerance_;
-        result_.report.deviation =
-            measure_deviation(prepared_.mesh, mesh, options, quiet(task_, task_.threads));
+        result_.report.deviation = measure_deviation(input_, mesh, options, quiet(task_, task_.threads));
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
         model_.promise.bound_mesh = d.certified ? d.max_bound() : d.max();

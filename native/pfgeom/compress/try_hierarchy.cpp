@@ -99,7 +99,7 @@ class Search {
         constexpr double kZone = 0.6, kMend = 0.8, kEnough = 0.9, kHopeless = 1.6;
         target_.add_vertices(goal_.mesh);
         base_lambda_ = 0.2;
-        double share = 1;
+        double share = 1, last = 1e300;
         for (int fits = 0; fits < kMostFitsOfMax; ++fits) {
             const double aim = share * tolerance_;
             set_fineness(-8 * reproducible_log2(aim));
@@ -115,7 +115,8 @@ class Search {
                 if (outcome.mesh.faces.empty()) break;
                 worst = outcome.deviation.max() / goal_.tolerance;
             }
-            if (worst > 30) break;
+            if (worst > 30 || worst > 0.97 * last) break;  // what is left does not yield to finer steps
+            last = worst;
             share *= std::clamp(0.97 / worst, 0.6, 0.93);
         }
         return {};

@@ -38,7 +38,8 @@ class CollapseMesh {
 
     /// Every edge once, lower vertex first, in rising order.
     std::vector<std::array<std::int32_t, 2>> edges() const;
-    /// The other ends of the edges at v that one face has, or more than two (sorted); of all edges if `all`.
+    /// The other ends of the edges at v, sorted; unless `all`, of those edges only that do not have two
+    /// faces.
     std::vector<std::int32_t> neighbours(std::int32_t v, bool all = true) const;
     /// The link condition, and no two faces that would cover each other; u and v are the ends of an edge.
     bool may_collapse(std::int32_t u, std::int32_t v) const;

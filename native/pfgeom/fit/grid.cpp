@@ -200,7 +200,7 @@ bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimit
         --left;
     }
     if (limits.metric != Metric::max) return true;
-    if (failed > kHopeless * static_cast<double>(count)) return false;
+    if (static_cast<double>(failed) > 4 + kHopeless * static_cast<double>(count)) return false;
     error.measure_finely();
     return snapper.mend(limits.forward, task);
 }

@@ -14,7 +14,7 @@ namespace {
 // Bytes at 1e-3 of the diagonal for a step of 0.6, 0.8 and 1 tolerances: 1839, 1780, 1749 (os-plane), 1561,
 // 1530, 1502 (beetle-alt); at 1 the vertices no longer find places on the grid that keep the tolerance.
 // A step that fails is followed by the next.
-constexpr std::array<double, 3> kSteps{0.8, 0.5, 0.3};
+constexpr std::array<double, 4> kSteps{0.8, 0.55, 0.38, 0.25};
 // What collapses may use, so that vertices find places on coarse lattices; of 0.75 .. 0.9 tried.
 constexpr double kCollapseShare = 0.85;
 // The third round takes off another percent (beetle-alt: 1085, 1019, 1010 faces).
