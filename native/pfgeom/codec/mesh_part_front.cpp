@@ -9,11 +9,12 @@ constexpr int kWide = 406;
 // Rises with the angle from x to y in the plane with the given normal: 1 - cos up to 180 degrees, 3 + cos
 // after.
 int pseudo_angle(const Vec3& x, const Vec3& y, const Vec3& normal) {
+    constexpr int kQuarterTurn = Wedge::kNone / 4;
     const double lengths = std::sqrt(squared_norm(x) * squared_norm(y));
     if (!(lengths > 0)) return 0;
     const double cosine = std::clamp(dot(x, y) / lengths, -1.0, 1.0);
     const double turn = dot(normal, cross(x, y)) >= 0 ? 1 - cosine : 3 + cosine;
-    return static_cast<int>(turn * (Wedge::kNone / 4));
+    return static_cast<int>(turn * kQuarterTurn);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "pfgeom/codec/function_codec.h"
 #include "pfgeom/codec/model_codec.h"
 
+#include <cmath>
 #include <vector>
 
 namespace pfgeom {
@@ -68,7 +69,7 @@ SizeReport measure_size(const Model& model) {
     double body = 0;
     for (const double bits : cost.functions) body += bits / 8;
     for (const double bits : cost.shapes) body += bits / 8;
-    report.head = static_cast<std::size_t>(static_cast<double>(report.total) - body + 0.5);
+    report.head = static_cast<std::size_t>(std::lround(static_cast<double>(report.total) - body));
     for (const Function& function : copy.functions) add_bytes_of_levels(function, report.bytes_of_level);
     return report;
 }

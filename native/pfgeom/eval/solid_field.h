@@ -19,9 +19,9 @@ class SolidField final : public ScalarField {
     Interval range(const Box& box) const override;
 
   private:
-    Jet jet(const Vec3& p, std::int32_t node) const;
-    double value(const Vec3& p, std::int32_t node) const;
-    Interval range(const Box& box, std::int32_t node) const;
+    Jet jet(const Vec3& p, std::int32_t index) const;
+    double value(const Vec3& p, std::int32_t index) const;
+    Interval range(const Box& box, std::int32_t index) const;
     const FunctionField& field(std::int32_t function) const;
     std::int32_t root() const { return static_cast<std::int32_t>(nodes_.size()) - 1; }
 

@@ -89,7 +89,7 @@ class Collapser {
     };
     void propose(std::int32_t u, std::int32_t v);
     Proposal measure(std::int32_t u, std::int32_t v);
-    Proposal measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double limit);
+    Proposal measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double most);
     bool apply(std::int32_t u, std::int32_t v, const Vec3& place);
     double limit() const;
     double length_cost(std::int32_t u, std::int32_t v) const;

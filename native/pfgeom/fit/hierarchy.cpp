@@ -214,6 +214,7 @@ class Fitter {
 
     std::vector<std::size_t> samples_near(const Level& level, const std::vector<std::size_t>& nodes) const {
         std::vector<Vec3> centres;
+        centres.reserve(nodes.size());
         for (const std::size_t i : nodes) centres.push_back(level.centres[i]);
         const BallGrid grid(centres, level.radius);
         std::vector<std::size_t> close;

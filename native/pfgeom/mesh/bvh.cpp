@@ -60,8 +60,8 @@ class Builder {
         if (!order_.empty()) add_node(with_box({0, static_cast<std::int32_t>(order_.size()), 0, {}}));
     }
 
-    std::vector<BvhNode> nodes() && { return std::move(nodes_); }
-    std::vector<std::int32_t> order() && { return std::move(order_); }
+    std::vector<BvhNode> take_nodes() { return std::move(nodes_); }
+    std::vector<std::int32_t> take_order() { return std::move(order_); }
 
   private:
     const Primitive& primitive(std::int32_t i) const { return primitives_[order_[i]]; }
@@ -186,8 +186,8 @@ Bvh::Bvh(const TriangleMesh& mesh, const Task& task)
     : bounds_(pfgeom::bounds(mesh)), position_(mesh.faces.size()) {
     Builder builder(mesh, task);
     builder.build();
-    nodes_ = std::move(builder).nodes();
-    faces_ = std::move(builder).order();
+    nodes_ = builder.take_nodes();
+    faces_ = builder.take_order();
     corners_.reserve(3 * faces_.size());
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         position_[faces_[i]] = static_cast<std::int32_t>(i);

@@ -42,6 +42,7 @@ std::vector<SideChain> find_chains(const TriangleMesh& mesh, const Sides& bounda
                                    const Task& task) {
     const std::vector<std::int32_t> vertices = vertices_of(mesh.faces, boundary);
     std::vector<Vec3> points;
+    points.reserve(vertices.size());
     for (const std::int32_t v : vertices) points.push_back(mesh.vertices[v]);
     const PointTree tree(std::move(points));
 
