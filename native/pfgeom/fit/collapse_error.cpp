@@ -11,9 +11,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // An edge or face is divided into at most this many parts along each side.
 constexpr int kMostParts = 24;
-// The search for the largest distance of a triangle ends in parts smaller than kFinest tolerances, and where
-// no more than kHarmless tolerances can come out.
-constexpr double kFinest = 0.5, kHarmless = 0.8;
+// Where no more than this many tolerances can come out, the search for the largest distance ends.
+constexpr double kHarmless = 0.8;
 
 int parts(double length, double spacing) {
     return static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, static_cast<double>(kMostParts)));
@@ -161,7 +160,7 @@ double CollapseError::rims(const Patch& patch, double limit) const {
 // Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface
 // they change far more slowly, as slope_ has it.
 double CollapseError::farthest(const std::array<Vec3, 3>& triangle, double limit, std::int32_t hint) const {
-    const double finest = std::max(kFinest * tolerance_, longest(triangle) / parts_);
+    const double finest = std::max(finest_ * tolerance_, longest(triangle) / parts_);
     double worst = 0;
     std::vector<std::array<Vec3, 3>> parts_left{triangle};
     while (!parts_left.empty()) {

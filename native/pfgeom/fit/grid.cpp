@@ -182,7 +182,7 @@ Grid Grid::around(const Box& box, double step) {
 }
 
 bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
-                   const Task& task) {
+                   bool persistent, const Task& task) {
     Snapper snapper(mesh, error, limits, grid);
     std::size_t left = 0, failed = 0;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
@@ -200,7 +200,7 @@ bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimit
         --left;
     }
     if (limits.metric != Metric::max) return true;
-    if (static_cast<double>(failed) > 4 + kHopeless * static_cast<double>(count)) return false;
+    if (!persistent && static_cast<double>(failed) > 4 + kHopeless * static_cast<double>(count)) return false;
     error.measure_finely();
     return snapper.mend(limits.forward, task);
 }

@@ -22,6 +22,6 @@ struct Grid {
 /// coarser than the grid where it may (up to 32 steps), across it to single steps. Coarse lattices cost fewer
 /// bits.
 bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
-                   const Task& task);
+                   bool persistent, const Task& task);
 
 }  // namespace pfgeom

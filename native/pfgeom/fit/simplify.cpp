@@ -68,7 +68,7 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
         const Grid grid = Grid::around(box, step * goal);
         CollapseMesh snapped = work;
         CollapseError snapped_error = error;
-        const bool kept = snap_vertices(snapped, snapped_error, outer, grid, task);
+        const bool kept = snap_vertices(snapped, snapped_error, outer, grid, step == kSteps.back(), task);
         object = object_of(snapped.result(), grid);
         if (kept) break;
     }

@@ -67,7 +67,7 @@ class Adapter {
     std::vector<std::int32_t> edges_of_far_faces(const std::vector<std::int32_t>& faces) const;
     bool too_far(std::int32_t face) const;
     void split_edges(const std::vector<std::int32_t>& chosen);
-    bool worst_of_face(std::int32_t h, double height) const;
+    bool worst_of_face(std::int32_t h, double own) const;
     bool middle(std::int32_t h, SurfacePoint& p) const;
     bool split(std::int32_t h, const SurfacePoint& point);
     void flip_edges();
