@@ -43,10 +43,7 @@ std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, c
 Outcome try_mesh(const Goal& goal, const Task& task);
 
 /// Encodes a model of this one object, decodes it, polygonizes and measures: fills bytes, mesh, deviation,
-/// holds. `certify`: prove the maximum (metric max), else sample it.
-void prove(const Goal& goal, Outcome& outcome, bool certify, const Task& task);
-
-/// The model of one outcome, or of several with their cavities.
-Model model_of(const Goal& goal, const Outcome& outcome);
+/// holds. The maximum is proved where it is what counts.
+void prove(const Goal& goal, Outcome& outcome, const Task& task);
 
 }  // namespace pfgeom

@@ -13,8 +13,7 @@ std::size_t samples_for(const TriangleMesh& mesh) {
     return std::clamp<std::size_t>(mesh.faces.size() * 10, 10'000, 100'000);
 }
 
-}  // namespace
-
+// A file of this one object.
 Model model_of(const Goal& goal, const Outcome& outcome) {
     Model model;
     model.functions = outcome.functions;
@@ -24,7 +23,10 @@ Model model_of(const Goal& goal, const Outcome& outcome) {
     return model;
 }
 
-void prove(const Goal& goal, Outcome& outcome, bool certify, const Task& task) {
+}  // namespace
+
+void prove(const Goal& goal, Outcome& outcome, const Task& task) {
+    const bool by_max = goal.metric == Metric::max;
     outcome.holds = false;
     const std::vector<std::uint8_t> bytes = encode(model_of(goal, outcome));
     outcome.bytes = bytes.size();
@@ -40,14 +42,13 @@ void prove(const Goal& goal, Outcome& outcome, bool certify, const Task& task) {
     if (outcome.mesh.faces.empty()) return;
     DeviationOptions options;
     options.samples = samples_for(goal.mesh);
-    options.bound = certify;
-    options.certify_below = certify && goal.metric == Metric::max ? goal.tolerance : 0;
+    options.bound = by_max;
+    options.certify_below = by_max ? goal.tolerance : 0;
     const Bvh bvh(outcome.mesh);
     outcome.deviation = measure_deviation(goal.mesh, goal.bvh, outcome.mesh, bvh, options, task);
     const Deviation& d = outcome.deviation;
-    outcome.holds = goal.metric == Metric::rms
-                        ? d.rms() <= goal.tolerance
-                        : (certify && d.certified ? d.max_bound() : d.max()) <= goal.tolerance;
+    const double error = by_max ? (d.certified ? d.max_bound() : d.max()) : d.rms();
+    outcome.holds = error <= goal.tolerance;
 }
 
 }  // namespace pfgeom

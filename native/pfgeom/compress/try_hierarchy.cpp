@@ -129,7 +129,7 @@ class Search {
         outcome.object.frame = target_.frame;
         outcome.object.shape = single_function(goal_.inward);
         outcome.object.mesh_code = mesh_code_for(goal_, chord);
-        prove(goal_, outcome, goal_.metric == Metric::max, task_);
+        prove(goal_, outcome, task_);
         return outcome;
     }
 

@@ -11,7 +11,7 @@ Outcome try_mesh(const Goal& goal, const Task& task) {
         outcome.object = fit_mesh_part(goal.mesh, {goal.tolerance, goal.metric, share}, task);
         auto& part = std::get<MeshPart>(outcome.object.shape);
         part = canonical(part);
-        prove(goal, outcome, true, task);
+        prove(goal, outcome, task);
         if (outcome.holds) break;
     }
     return outcome;

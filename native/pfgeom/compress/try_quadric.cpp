@@ -22,7 +22,7 @@ std::optional<Outcome> try_quadric(const Goal& goal, const Task& task) {
     outcome.object.frame = target.frame;
     outcome.object.shape = single_function(goal.inward);
     outcome.object.mesh_code = mesh_code_for(goal, goal.tolerance / 4);
-    prove(goal, outcome, true, task);
+    prove(goal, outcome, task);
     if (!outcome.holds) return {};
     return outcome;
 }
