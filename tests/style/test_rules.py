@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from tree import ROOT, all_files, native_files, stage_of, text_of, where, without_comments
+from tree import NATIVE, ROOT, all_files, native_files, stage_of, text_of, where, without_comments
 
 SOURCES = {".h", ".cpp", ".py", ".pyi", ".cmake", ".md", ".txt", ".toml", ".json", ""}
 
@@ -79,3 +79,14 @@ def test_links_in_documents_lead_somewhere() -> None:
             if "://" not in target and not (path.parent / target).exists():
                 broken.append(f"{path.relative_to(ROOT)}: {target}")
     assert not broken
+
+
+def test_every_type_has_one_header() -> None:
+    """Two types of one name are one to the linker, which keeps the functions of either (a silent wrong read)."""
+    homes: dict[str, list[str]] = {}
+    for path in (p for p in native_files() if p.suffix == ".h"):
+        source = without_comments(path.read_text(encoding="utf-8"))
+        for name in re.findall(r"^(?:class|struct|enum class) (\w+)\b[^;{]*\{", source, flags=re.MULTILINE):
+            homes.setdefault(name, []).append(str(path.relative_to(NATIVE)))
+    twice = {name: files for name, files in homes.items() if len(files) > 1}
+    assert not twice, twice

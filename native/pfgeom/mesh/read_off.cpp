@@ -1,7 +1,7 @@
 // OFF (Geomview), ascii and binary: [ST][C][N]OFF [BINARY]. Only positions are taken: in ascii files the rest
 // of a vertex's or face's line is passed over, in binary ones the prefix says how many values a vertex has.
 #include "pfgeom/base/error.h"
-#include "pfgeom/mesh/byte_reader.h"
+#include "pfgeom/mesh/binary_scanner.h"
 #include "pfgeom/mesh/formats.h"
 #include "pfgeom/mesh/mesh_builder.h"
 #include "pfgeom/mesh/text_scanner.h"
@@ -76,7 +76,7 @@ TriangleMesh read_ascii(TextScanner& scanner) {
     return builder.finish();
 }
 
-TriangleMesh read_binary(ByteReader reader, int extra_values) {
+TriangleMesh read_binary(BinaryScanner reader, int extra_values) {
     const std::size_t vertex_bytes = 4 * (3 + static_cast<std::size_t>(extra_values));
     const auto vertex_count = reader.get<std::int32_t>(), face_count = reader.get<std::int32_t>();
     reader.skip(4);
@@ -109,7 +109,7 @@ TriangleMesh read_off(std::span<const std::uint8_t> bytes) {
     TextScanner scanner(bytes);
     const OffHeader header = read_header(scanner);
     if (!header.binary) return read_ascii(scanner);
-    return read_binary(ByteReader(bytes.last(scanner.bytes_left()), true), header.extra_values);
+    return read_binary(BinaryScanner(bytes.last(scanner.bytes_left()), true), header.extra_values);
 }
 
 }  // namespace pfgeom

@@ -2,7 +2,7 @@
 // "vertex_index") of "face" (polygons) and "tristrips" (strips of triangles, -1 between two strips); other
 // elements and properties are passed over, in any order.
 #include "pfgeom/base/error.h"
-#include "pfgeom/mesh/byte_reader.h"
+#include "pfgeom/mesh/binary_scanner.h"
 #include "pfgeom/mesh/formats.h"
 #include "pfgeom/mesh/mesh_builder.h"
 #include "pfgeom/mesh/ply_header.h"
@@ -78,7 +78,7 @@ class BinarySource {
             throw InvalidInput("an index or a list's length is no whole number");
         return static_cast<std::int64_t>(value);
     }
-    ByteReader reader_;
+    BinaryScanner reader_;
 };
 
 void check_count(const PlyElement& element, std::size_t least, std::size_t bytes_left) {

@@ -2,7 +2,7 @@
 // attribute bytes are passed over. Many binary files begin with "solid" as ascii files do, so the size
 // decides.
 #include "pfgeom/base/error.h"
-#include "pfgeom/mesh/byte_reader.h"
+#include "pfgeom/mesh/binary_scanner.h"
 #include "pfgeom/mesh/formats.h"
 #include "pfgeom/mesh/mesh_builder.h"
 #include "pfgeom/mesh/text_scanner.h"
@@ -18,7 +18,7 @@ constexpr std::size_t kHeaderBytes = 80, kFacetBytes = 50;
 
 bool is_binary(std::span<const std::uint8_t> bytes) {
     if (bytes.size() < kHeaderBytes + 4) return false;
-    ByteReader reader(bytes, false);
+    BinaryScanner reader(bytes, false);
     reader.skip(kHeaderBytes);
     if (kHeaderBytes + 4 + kFacetBytes * std::size_t{reader.get<std::uint32_t>()} == bytes.size())
         return true;
@@ -28,7 +28,7 @@ bool is_binary(std::span<const std::uint8_t> bytes) {
 }
 
 TriangleMesh read_binary(std::span<const std::uint8_t> bytes) {
-    ByteReader reader(bytes, false);
+    BinaryScanner reader(bytes, false);
     reader.skip(kHeaderBytes);
     const auto count = reader.get<std::uint32_t>();
     if (count > reader.bytes_left() / kFacetBytes)

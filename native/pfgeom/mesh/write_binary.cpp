@@ -1,7 +1,7 @@
 // PLY and STL, binary little-endian.
 #include "pfgeom/base/error.h"
-#include "pfgeom/mesh/byte_writer.h"
 #include "pfgeom/mesh/formats.h"
+#include "pfgeom/mesh/value_writer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ bool floats_suffice(const TriangleMesh& mesh) {
 }
 
 template <class Real>
-void put_point(ByteWriter& out, const Vec3& p) {
+void put_point(ValueWriter& out, const Vec3& p) {
     for (int axis = 0; axis < 3; ++axis) out.put(static_cast<Real>(p[axis]));
 }
 
@@ -39,7 +39,7 @@ void put_point(ByteWriter& out, const Vec3& p) {
 std::vector<std::uint8_t> write_ply(const TriangleMesh& mesh) {
     const bool single = floats_suffice(mesh);
     const std::string type = single ? "float" : "double";
-    ByteWriter out(300 + mesh.vertices.size() * (single ? 12 : 24) + mesh.faces.size() * 13);
+    ValueWriter out(300 + mesh.vertices.size() * (single ? 12 : 24) + mesh.faces.size() * 13);
     out.put_text("ply\nformat binary_little_endian 1.0\nelement vertex " +
                  std::to_string(mesh.vertices.size()) + "\nproperty " + type + " x\nproperty " + type +
                  " y\nproperty " + type + " z\nelement face " + std::to_string(mesh.faces.size()) +
@@ -53,7 +53,7 @@ std::vector<std::uint8_t> write_ply(const TriangleMesh& mesh) {
 }
 
 std::vector<std::uint8_t> write_stl(const TriangleMesh& mesh) {
-    ByteWriter out(84 + mesh.faces.size() * 50);
+    ValueWriter out(84 + mesh.faces.size() * 50);
     std::string header = "binary STL";
     header.resize(80, ' ');
     out.put_text(header);

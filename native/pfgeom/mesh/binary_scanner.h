@@ -16,9 +16,9 @@ namespace pfgeom {
 static_assert(std::endian::native == std::endian::little,
               "the order of bytes is written out for such machines");
 
-class ByteReader {
+class BinaryScanner {
   public:
-    ByteReader(std::span<const std::uint8_t> bytes, bool big_endian)
+    BinaryScanner(std::span<const std::uint8_t> bytes, bool big_endian)
         : bytes_(bytes), big_endian_(big_endian) {}
 
     std::size_t bytes_left() const { return bytes_.size() - at_; }

@@ -13,9 +13,9 @@ namespace pfgeom {
 static_assert(std::endian::native == std::endian::little,
               "the order of bytes is written out for such machines");
 
-class ByteWriter {
+class ValueWriter {
   public:
-    explicit ByteWriter(std::size_t expected) { bytes_.reserve(expected); }
+    explicit ValueWriter(std::size_t expected) { bytes_.reserve(expected); }
 
     template <class T>
     void put(T value) {
