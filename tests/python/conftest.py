@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -17,6 +18,9 @@ DATA = ROOT.parent / "shared" / "data"
 
 hypothesis.settings.register_profile("pfgeom", deadline=None, derandomize=True, max_examples=50)
 hypothesis.settings.load_profile("pfgeom")
+
+# A job in a shell's background inherits SIGINT as ignored, and would hand that on to the tests of interrupts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")

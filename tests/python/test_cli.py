@@ -213,7 +213,10 @@ def test_interrupt(long_file, tmp_path):
     process = start_compress(long_file, tmp_path / "a.pfg")
     time.sleep(1.5)  # past the imports
     process.send_signal(signal.SIGINT)
-    stdout, stderr = process.communicate(timeout=5)
+    try:
+        stdout, stderr = process.communicate(timeout=5)
+    finally:
+        process.kill()
     assert process.returncode == 130
     assert (stdout, stderr) == ("", "pfgeom: interrupted\n")
     assert os.listdir(tmp_path) == [long_file.name]
