@@ -17,6 +17,9 @@ constexpr double kSeamShare = 1.0 / 16;
 constexpr std::size_t kQuickMesh = 40'000;
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
+// Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
+// and the earlier ones did not, all is done again within these shares of it.
+constexpr double kShares[] = {1.0, 0.95, 0.7};
 // From so many islands on they are worked on side by side, one thread each.
 constexpr std::size_t kManyIslands = 8;
 
@@ -33,9 +36,15 @@ class Compressor {
         tolerance_ = options_.tolerance * (options_.relative ? size : 1.0);
         prepared_ = prepare_mesh(input_, kSeamShare * tolerance_);
         task_.report(0.02, "fit");
-        fit_islands();
-        assemble();
-        finish();
+        for (const double share : kShares) {
+            share_ = share;
+            fit_islands();
+            assemble();
+            if (finish()) break;
+        }
+        if (result_.bytes.empty())
+            throw LimitExceeded("the compressed model asks for more work than its size allows");
+        task_.report(1, "done");
         return std::move(result_);
     }
 
@@ -49,12 +58,12 @@ class Compressor {
     Goal goal_of(const TriangleMesh& mesh, const Bvh& bvh, bool inward) const {
         // Where seams were closed, the prepared mesh differs from the input by up to their distance.
         const double moved = prepared_.defects.seam_edges > 0 ? kSeamShare * tolerance_ : 0;
-        return {mesh, bvh, tolerance_ - moved, options_.metric, prepared_.diagonal, inward};
+        return {mesh, bvh, share_ * (tolerance_ - moved), options_.metric, prepared_.diagonal, inward};
     }
 
     void fit_islands() {
         const std::size_t n = prepared_.islands.size();
-        chosen_.resize(n);
+        chosen_.assign(n, {});
         if (n < kManyIslands) {
             for (std::size_t i = 0; i < n; ++i) {
                 const double at = static_cast<double>(i) / static_cast<double>(n);
@@ -99,6 +108,7 @@ class Compressor {
     // the rest.
     void assemble() {
         const std::size_t n = prepared_.islands.size();
+        model_ = {};
         model_.diagonal = prepared_.diagonal;
         std::vector<std::int32_t> object_of(n, -1);
         std::vector<std::size_t> rest;
@@ -163,11 +173,11 @@ class Compressor {
     }
 
     // The promise is measured on the decoded bytes, against the input as it was given; its figures change a
-    // few bytes of the header only.
-    void finish() {
+    // few bytes of the header only. False: the promise is broken.
+    bool finish() {
         model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
         const Result<Model> first = decode(encode(model_));
-        if (!first) throw LimitExceeded("the compressed model asks for more work than its size allows");
+        if (!first) return false;  // asks for more work than its size allows
         const TriangleMesh mesh = to_mesh(*first, {}, quiet(task_, task_.threads));
         task_.report(0.96, "measure");
         DeviationOptions options;
@@ -181,11 +191,14 @@ class Compressor {
         result_.bytes = encode(model_);
         result_.model = *decode(result_.bytes);
         fill_report(mesh);
-        task_.report(1, "done");
+        const double reached =
+            options_.metric == Metric::rms ? model_.promise.rms : model_.promise.bound_mesh;
+        return reached <= tolerance_;
     }
 
     void fill_report(const TriangleMesh& mesh) {
         CompressReport& r = result_.report;
+        r.islands.clear();
         r.defects = prepared_.defects;
         r.input_vertices = static_cast<std::int64_t>(input_.vertices.size());
         r.input_faces = static_cast<std::int64_t>(input_.faces.size());
@@ -204,6 +217,7 @@ class Compressor {
     const CompressOptions& options_;
     const Task& task_;
     double tolerance_ = 0;
+    double share_ = 1;  // of the tolerance, that the islands may use
     PreparedMesh prepared_;
     std::vector<std::optional<Outcome>> chosen_;
     Model model_;
