@@ -1,6 +1,7 @@
 #include "scenes.h"
 
-#include <array>
+#include "shapes.h"
+
 #include <cstdint>
 #include <functional>
 
@@ -28,40 +29,6 @@ TriangleMesh cube_grid(int n, const std::function<Vec3(const Vec3&)>& shape) {
             const std::int32_t a = first + k / n * (n + 1) + k % n, b = a + n + 1;
             mesh.faces.push_back({a, b, b + 1});
             mesh.faces.push_back({a, b + 1, a + 1});
-        }
-    }
-    return mesh;
-}
-
-// A point of the unit circle without sine or cosine: i of n steps, four arcs of the rational half-angle form.
-std::array<double, 2> circle(int i, int n) {
-    const int quarter = 4 * i / n;
-    const double u = 4.0 * i / n - quarter;                  // 0..1 along the quarter
-    const double t = u / (1 + (1 - u) * 0.414213562373095);  // near-even spacing; the end points are exact
-    const double c = (1 - t * t) / (1 + t * t), s = 2 * t / (1 + t * t);
-    switch (quarter % 4) {
-        case 0:
-            return {c, s};
-        case 1:
-            return {-s, c};
-        case 2:
-            return {-c, -s};
-        default:
-            return {s, -c};
-    }
-}
-
-TriangleMesh torus(int n, int m, double major, double minor) {
-    TriangleMesh mesh;
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < m; ++j) {
-            const auto [cu, su] = circle(i, n);
-            const auto [cv, sv] = circle(j, m);
-            mesh.vertices.push_back({(major + minor * cv) * cu, (major + minor * cv) * su, minor * sv});
-            const std::int32_t a = i * m + j, b = (i + 1) % n * m + j;
-            const std::int32_t c = (i + 1) % n * m + (j + 1) % m, d = i * m + (j + 1) % m;
-            mesh.faces.push_back({a, b, c});
-            mesh.faces.push_back({a, c, d});
         }
     }
     return mesh;
@@ -124,7 +91,7 @@ std::vector<Scene> all() {
     return {{"sphere", cube_grid(16, sphere), 1e-3},
             {"ellipsoid", cube_grid(16, ellipsoid), 1e-3},
             {"cube", cube_grid(4, [](const Vec3& p) { return p; }), 1e-3},
-            {"torus", torus(40, 24, 1.0, 0.45), 5e-3},
+            {"torus", pfgeom::shapes::torus(1.0, 0.45, 40, 24), 5e-3},
             {"pebble", cube_grid(16, pebble), 5e-3},
             {"saddle", saddle(20), 2e-3},
             {"archipelago", archipelago(), 5e-3}};

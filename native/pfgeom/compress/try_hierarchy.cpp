@@ -3,6 +3,7 @@
 #include "pfgeom/base/reproducible.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
+#include "pfgeom/eval/derive.h"
 #include "pfgeom/fit/hierarchy.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ class Search {
           target_(goal.mesh, sample_count(goal)),
           tolerance_(goal.tolerance / target_.frame.half()) {
         options_.most_bits = 8.0 * static_cast<double>(most_bytes);
-        options_.last_thin = 7;
+        options_.last_thin = kLastThinLevel;
     }
 
     std::optional<Outcome> run() { return goal_.metric == Metric::rms ? search_rms() : search_max(); }
