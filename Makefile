@@ -130,7 +130,7 @@ check-coverage: check-tools
 	cmake --build build/coverage --parallel $(jobs) --target test_codec
 	find build/coverage -name '*.gcda' -delete
 	build/coverage/tests/test_codec --gtest_brief=1
-	gcovr --root . --filter native/pfgeom/codec/ --object-directory build/coverage --fail-under-line 90
+	gcovr --root . --filter native/pfgeom/codec/ --fail-under-line 90 build/coverage/CMakeFiles/pfgeom_codec.dir
 
 wheel: $(stamp)/installed $(stamp)/venv-check
 	rm -rf build/wheel && mkdir -p build/wheel dist

@@ -54,6 +54,9 @@ class Search {
           tolerance_(goal.tolerance / target_.frame.half()) {
         options_.most_bits = 8.0 * static_cast<double>(most_bytes);
         options_.last_thin = kLastThinLevel;
+        // The finer, the less a bit is worth: at 1e-4 of the diagonal half the weight saves 5 % (fertility,
+        // rocker-arm); at 2e-4 it costs 3 %.
+        base_lambda_ *= std::clamp(goal.tolerance / (2e-4 * goal.diagonal), 0.5, 1.0);
     }
 
     std::optional<Outcome> run() { return goal_.metric == Metric::rms ? search_rms() : search_max(); }
