@@ -73,7 +73,7 @@ class Search {
     }
 
     std::optional<Outcome> search_rms() {
-        constexpr double kAim = 0.987, kBand = 0.015;
+        constexpr double kAim = 0.991, kBand = 0.012;
         Secant secant(-8 * reproducible_log2(tolerance_ / 0.3));
         double bias = 1.015;  // measured rms over that of the fit's own samples: the mesh adds its chords
         std::optional<Outcome> best;
@@ -89,7 +89,7 @@ class Search {
                 if (outcome.mesh.faces.empty()) break;
                 const double reached = outcome.deviation.rms() / goal_.tolerance;
                 if (outcome.holds && (!best || outcome.bytes < best->bytes)) best = outcome;
-                if (reached > 3 || (outcome.holds && reached > kAim - 2 * kBand)) break;
+                if (reached > 3 || (outcome.holds && reached > kAim - kBand)) break;
                 bias = reached * tolerance_ / fit.rms;
             }
             secant.step(fit.rms, kAim * tolerance_ / bias);
