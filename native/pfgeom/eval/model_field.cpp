@@ -2,6 +2,7 @@
 
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/solid_field.h"
+#include "pfgeom/eval/tree_field.h"
 #include "pfgeom/mesh/bvh.h"
 
 #include <algorithm>
@@ -28,16 +29,19 @@ struct ModelField::Part {
     Frame frame;
     std::vector<Similarity> copies;  // besides the one in place
     std::int32_t cavity_of = -1;
-    std::optional<SolidField> solid;
+    std::unique_ptr<ScalarField> solid;  // in the frame's cube, which holds it
     std::optional<Bvh> bvh;
     Box box;
 
     Part(const Model& model, const Object& object)
         : frame(object.frame), copies(object.instances), cavity_of(object.cavity_of) {
         if (const auto* s = std::get_if<Solid>(&object.shape)) {
-            solid.emplace(model, without_outer_complement(*s));
+            solid = std::make_unique<SolidField>(model, without_outer_complement(*s));
             const Vec3 h{frame.half(), frame.half(), frame.half()};
             box = {frame.centre() - h, frame.centre() + h};
+        } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
+            solid = std::make_unique<TreeField>(*tree);
+            box = {frame.to_world(tree->box().lo), frame.to_world(tree->box().hi)};
         } else if (std::holds_alternative<MeshPart>(object.shape)) {
             bvh.emplace(mesh_of(object));
             box = bvh->bounds();

@@ -37,6 +37,8 @@ Flaw flaw_of(const Promise& promise, double diagonal) {
     if (!(diagonal >= 0x1p-127 && diagonal <= 0x1p127)) return "the diagonal is not between 2^-127 and 2^127";
     if (!is_length(promise.tolerance)) return "the tolerance is not a length";
     if (!is_length(promise.bound_mesh) || !is_length(promise.rms)) return "bound_mesh or rms is not a length";
+    if (!is_length(promise.bound_functions)) return "bound_functions is not a length";
+    if (promise.functions_certified && promise.bound_functions == 0) return "an unknown bound is certified";
     return {};
 }
 
@@ -110,6 +112,10 @@ Flaw flaw_of(const MeshPart& part, const Model&) {
         if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) return "a face has the same corner twice";
     }
     return {};
+}
+
+Flaw flaw_of(const SetTree& tree, const Model&) {
+    return find_flaw(tree);
 }
 
 Flaw flaw_of(const Frame& frame) {

@@ -13,6 +13,10 @@ namespace pfgeom {
 /// What is wrong, as a sentence that names the row; empty if nothing is. Linear in the size of the model.
 std::string find_flaw(const Model& model, const Limits& limits = {});
 
+/// The same for a tree: order and depth of its nodes, quadrics in the order of their first use and none asked
+/// twice on a path, every integer within its range (function/set_tree_check.cpp).
+std::string find_flaw(const SetTree& tree);
+
 /// Well-formed UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
 bool is_utf8(std::string_view text);
 

@@ -5,6 +5,7 @@
 #include "pfgeom/base/triangle.h"
 #include "pfgeom/function/frame.h"
 #include "pfgeom/function/quadric.h"
+#include "pfgeom/function/set_tree.h"
 
 #include <cstdint>
 #include <string>
@@ -110,10 +111,11 @@ struct Similarity {
 /// What one island or segment of the mesh became.
 struct Object {
     Frame frame;  ///< of the functions' cube, or of the mesh part's grid
-    std::variant<Solid, Sheet, MeshPart> shape;
+    std::variant<Solid, Sheet, MeshPart, SetTree> shape;
     /// The object (an earlier one) that this one is taken out of, or -1. Its own solid is the hollow; the
-    /// faces of its mesh point inwards. A solid whose root is a complement and that is no cavity came from an
-    /// inside-out mesh: its faces point inwards too, but what it encloses counts as inside.
+    /// faces of its mesh point inwards. A solid whose root is a complement (or a tree that is one) and that
+    /// is no cavity came from an inside-out mesh: its faces point inwards too, but what it encloses counts as
+    /// inside.
     std::int32_t cavity_of = -1;
     std::vector<Similarity> instances;  ///< further copies, beside the one that `frame` places
     std::uint8_t mesh_code = 0;  ///< chord tolerance of the default mesh: diagonal · 2^(-mesh_code / 4)
@@ -128,6 +130,10 @@ struct Promise {
     double bound_mesh = 0;   ///< largest deviation between the input and the default mesh
     bool certified = false;  ///< bound_mesh is proved (else the largest of samples)
     double rms = 0;          ///< two-sided, the worse direction
+    /// Largest deviation between the input and the surface of the functions themselves (of a mesh part: its
+    /// mesh), of which the default mesh is an image; 0: not known.
+    double bound_functions = 0;
+    bool functions_certified = false;  ///< bound_functions is proved
 };
 
 struct Model {

@@ -36,9 +36,19 @@ TEST(Check, NumbersMustBeFinite) {
         EXPECT_NE(flaw_after([bad](Model& m) { m.diagonal = bad; }), "");
         EXPECT_NE(flaw_after([bad](Model& m) { m.promise.tolerance = bad; }), "");
         EXPECT_NE(flaw_after([bad](Model& m) { m.promise.rms = bad; }), "");
+        EXPECT_NE(flaw_after([bad](Model& m) { m.promise.bound_functions = bad; }), "");
         EXPECT_NE(flaw_after([bad](Model& m) { m.objects[0].instances.push_back({bad, {}, {}}); }), "");
     }
     EXPECT_NE(flaw_after([](Model& m) { m.diagonal = 0; }), "");
+}
+
+TEST(Check, OnlyAKnownBoundCanBeCertified) {
+    EXPECT_NE(flaw_after([](Model& m) { m.promise.functions_certified = true; }), "");
+    EXPECT_EQ(flaw_after([](Model& m) {
+                  m.promise.bound_functions = 1e-3;
+                  m.promise.functions_certified = true;
+              }),
+              "");
 }
 
 TEST(Check, IndicesMustExist) {
