@@ -59,6 +59,13 @@ int main(int argc, char** argv) {
         model.functions[0] = pfgeom::test::random_hierarchy(random, last_level);
         write_model(folder, "hierarchy" + std::to_string(last_level), model);
     }
+    for (int depth = 1; depth < 7; ++depth) {
+        pfgeom::Random random(static_cast<std::uint64_t>(depth));
+        pfgeom::Model model = pfgeom::test::ball();
+        model.functions.clear();
+        model.objects[0].shape = pfgeom::test::random_tree(random, depth);
+        write_model(folder, "tree" + std::to_string(depth), model);
+    }
     write_unknown_sections(folder);
     return 0;
 }

@@ -31,6 +31,7 @@ enum StreamKind : std::uint32_t {
     kHasLevelsFlag = 214,  // flags need one
     kScaledFlag = 215,
     kCavityFlag = 216,
+    kBoxCentreKind = 218,
 };
 
 struct CodecStream {

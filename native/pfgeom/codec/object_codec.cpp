@@ -1,6 +1,7 @@
 #include "pfgeom/codec/object_codec.h"
 
 #include "pfgeom/codec/mesh_part_codec.h"
+#include "pfgeom/codec/set_tree_codec.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 namespace pfgeom {
 namespace {
 
-constexpr std::uint32_t kSolid = 0, kSheet = 1, kMeshPart = 2;  // order of Object::shape
+constexpr std::uint32_t kSolid = 0, kSheet = 1, kMeshPart = 2, kSetTree = 3;  // order of Object::shape
 
 // Contexts of code_wide and code_numbers.
 constexpr std::uint32_t kFirstOffset = 256, kLaterOffset = 257;
@@ -78,12 +79,15 @@ void ObjectCoder::code_shape(Object& object) {
             object.shape = Sheet{};
         else if (shape == kMeshPart)
             object.shape = MeshPart{};
+        else if (shape == kSetTree)
+            object.shape = SetTree{};
         else
             stream_.expect(shape == kSolid);
     }
     if (!stream_.ok()) return;
     if (auto* solid = std::get_if<Solid>(&object.shape)) code_solid(*solid);
     if (auto* part = std::get_if<MeshPart>(&object.shape)) code_mesh(*part);
+    if (auto* tree = std::get_if<SetTree>(&object.shape)) code_set_tree(stream_, tree_model_, *tree);
     if (auto* sheet = std::get_if<Sheet>(&object.shape)) {
         code_function_index(sheet->surface);
         code_function_index(sheet->trim);

@@ -1,6 +1,7 @@
-// The objects of a model: frame, shape (set expression, sheet or mesh part), nesting, instances.
+// The objects of a model: frame, shape (set expression, sheet, mesh part or set tree), nesting, instances.
 #pragma once
 
+#include "pfgeom/codec/backoff_model.h"
 #include "pfgeom/codec/codec_stream.h"
 #include "pfgeom/function/model.h"
 
@@ -29,6 +30,7 @@ class ObjectCoder {
     std::int32_t code_int(std::int32_t value, std::uint32_t kind);
 
     CodecStream& stream_;
+    BackoffModel tree_model_;
     std::int32_t function_count_;
     std::int32_t next_function_ = 0;  // the first one that no object has used yet
     std::int32_t index_ = 0;          // of the object

@@ -16,12 +16,12 @@ enum class ToleranceForm : std::uint32_t { none, decimal_share, decimal_length, 
 
 // All of the head as integers.
 struct Codes {
-    bool certified = false, rms_metric = false;
+    bool certified = false, rms_metric = false, functions_certified = false;
     ShortFloat diagonal;
     ToleranceForm form = ToleranceForm::none;
     Decimal decimal;
     ShortFloat share;
-    ShortFloat bound, rms;  // in tolerances; in diagonals if there is no tolerance
+    ShortFloat bound, rms, bound_functions;  // in tolerances; in diagonals if there is no tolerance
     friend bool operator==(const Codes&, const Codes&) = default;
 };
 
@@ -79,6 +79,9 @@ void require_range(const Codes& codes) {
         !fits(codes.rms, kErrorExponent, kErrorExponentBits)) {
         throw InvalidInput("bound_mesh or rms is out of proportion to the tolerance");
     }
+    if (!fits(codes.bound_functions, kErrorExponent, kErrorExponentBits)) {
+        throw InvalidInput("bound_functions is out of proportion to the tolerance");
+    }
 }
 
 // Errors are measured against the tolerance as a reader sees it.
@@ -94,6 +97,8 @@ Codes quantise(double diagonal, const Promise& promise) {
     const double unit = unit_of_errors(stored_diagonal, stored);
     codes.bound = error_above(promise.bound_mesh / unit);
     codes.rms = error_above(promise.rms / unit);
+    codes.functions_certified = promise.functions_certified;
+    codes.bound_functions = error_above(promise.bound_functions / unit);
     return codes;
 }
 
@@ -105,6 +110,8 @@ void dequantise(const Codes& codes, double& diagonal, Promise& promise) {
     const double unit = unit_of_errors(diagonal, promise);
     promise.bound_mesh = value_of(codes.bound, kErrorBits) * unit;
     promise.rms = value_of(codes.rms, kErrorBits) * unit;
+    promise.functions_certified = codes.functions_certified;
+    promise.bound_functions = value_of(codes.bound_functions, kErrorBits) * unit;
 }
 
 bool code_bit(EntropyCoder& coder, bool value) {
@@ -128,6 +135,14 @@ void code_error(EntropyCoder& coder, ShortFloat& x) {
     }
     x.exponent = out - kErrorExponent;
     x.mantissa = (1U << kErrorBits) | coder.code_raw(x.mantissa & ((1U << kErrorBits) - 1), kErrorBits);
+}
+
+// One bit where it is not known.
+void code_bound_functions(CodecStream& stream, Codes& codes) {
+    if (!code_bit(stream.coder, codes.bound_functions.mantissa != 0)) return;
+    codes.functions_certified = code_bit(stream.coder, codes.functions_certified);
+    code_error(stream.coder, codes.bound_functions);
+    if (codes.bound_functions.mantissa == 0) stream.fail(FormatStatus::bad_header);
 }
 
 void code_tolerance(CodecStream& stream, Codes& codes) {
@@ -156,6 +171,7 @@ void code_promise(CodecStream& stream, double& diagonal, Promise& promise) {
     code_tolerance(stream, codes);
     code_error(stream.coder, codes.bound);
     code_error(stream.coder, codes.rms);
+    code_bound_functions(stream, codes);
     dequantise(codes, diagonal, promise);
     if (stream.decoding() && stream.ok() && quantise(diagonal, promise) != codes)
         stream.fail(FormatStatus::bad_header);

@@ -1,4 +1,4 @@
-// The optional sections of a file: what a model carries beside its geometry (docs/FORMAT.md, section 7).
+// The optional sections of a file: what a model carries beside its geometry (docs/FORMAT.md, section 9).
 #pragma once
 
 #include "pfgeom/base/status.h"

@@ -47,6 +47,10 @@ void expect_equal(const MeshPart& a, const MeshPart& b) {
     EXPECT_EQ(in_order.faces, b.faces);
 }
 
+void expect_equal(const SetTree& a, const SetTree& b) {
+    EXPECT_EQ(a, b);
+}
+
 void expect_equal(const Object& a, const Object& b) {
     EXPECT_EQ(a.frame, b.frame);
     EXPECT_EQ(a.cavity_of, b.cavity_of);
@@ -139,6 +143,7 @@ TEST(Codec, ErrorsAreRoundedUpAndPromisesStayKept) {
         model.promise = test::random_promise(random, model.diagonal);
         if (i % 10 == 0) model.promise.bound_mesh = model.promise.tolerance;
         if (i % 10 == 1) model.promise.rms = 0;
+        if (i % 10 == 2) model.promise.bound_functions = model.promise.tolerance;
         const Promise &a = model.promise, b = decoded(encode(model)).promise;
         EXPECT_EQ(a.metric, b.metric);
         EXPECT_EQ(a.certified, b.certified);
@@ -149,7 +154,23 @@ TEST(Codec, ErrorsAreRoundedUpAndPromisesStayKept) {
         EXPECT_LE(b.bound_mesh, a.bound_mesh * 1.032 + 1e-11 * a.tolerance);
         EXPECT_GE(b.rms, a.rms * (1 - 1e-12));
         EXPECT_LE(b.rms, a.rms * 1.032 + 1e-11 * a.tolerance);
+        EXPECT_EQ(a.functions_certified, b.functions_certified);
+        EXPECT_EQ(a.bound_functions == 0, b.bound_functions == 0);
+        EXPECT_LE(b.bound_functions, b.tolerance * (1 + 1e-12));
+        EXPECT_GE(b.bound_functions, a.bound_functions * (1 - 1e-12));
+        EXPECT_LE(b.bound_functions, a.bound_functions * 1.032);
         ASSERT_FALSE(HasFailure()) << "model " << i;
+    }
+}
+
+TEST(Codec, TheBoundOfTheFunctionsTakesTwoBytes) {
+    Model model = ball();
+    const std::size_t without = encode(model).size();
+    for (const bool certified : {false, true}) {
+        model.promise.bound_functions = 1.7e-3;
+        model.promise.functions_certified = certified;
+        EXPECT_GT(encode(model).size(), without);
+        EXPECT_LE(encode(model).size(), without + 2);
     }
 }
 
@@ -160,6 +181,8 @@ TEST(Codec, AModelWithoutAPromiseIsAModel) {
     EXPECT_EQ(promise.tolerance, 0);
     EXPECT_EQ(promise.bound_mesh, 0);
     EXPECT_EQ(promise.rms, 0);
+    EXPECT_EQ(promise.bound_functions, 0);
+    EXPECT_FALSE(promise.functions_certified);
 }
 
 TEST(Codec, AllThatIsNotFunctionsTakesAtMost32Bytes) {
@@ -236,6 +259,8 @@ TEST(Codec, WhatIsNotAModelIsNotEncoded) {
     };
     refuses([](Model& m) { m.objects.clear(); });
     refuses([](Model& m) { m.promise.bound_mesh = 1e9 * m.promise.tolerance; });
+    refuses([](Model& m) { m.promise.bound_functions = 1e9 * m.promise.tolerance; });
+    refuses([](Model& m) { m.promise.functions_certified = true; });
     refuses([](Model& m) { m.promise.tolerance = 1e-38 * m.diagonal * 1.000123456789; });
     refuses([](Model& m) { m.functions.clear(); });
 }

@@ -55,6 +55,9 @@ std::map<std::string, Model> golden_models() {
     Model& mesh = models["mesh"] = test::ball();
     mesh.functions.clear();
     mesh.objects[0].shape = test::random_mesh_part(random);
+    Model& tree = models["tree"] = test::ball();
+    tree.functions.clear();
+    tree.objects[0].shape = test::random_tree(random, 6);
     Model& named = models["sections"] = test::ball();
     named.names = {"Kugel \xC3\xBC"};
     named.world_transform = {1, 0, 0, 2, 0, 0.5, 0, 3, 0, 0, -1, 4, 0, 0, 0, 1};

@@ -47,8 +47,18 @@ Model with_mesh_part() {
     return model;
 }
 
+Model with_tree(int depth) {
+    Random random(13);
+    Model model = ball();
+    model.functions.clear();
+    model.objects[0].shape = test::random_tree(random, depth);
+    model.promise.bound_functions = 1.8e-3;
+    model.promise.functions_certified = true;
+    return model;
+}
+
 std::vector<Bytes> small_files() {
-    return {encode(ball()), encode(with_hierarchy(3)), encode(with_mesh_part())};
+    return {encode(ball()), encode(with_hierarchy(3)), encode(with_mesh_part()), encode(with_tree(4))};
 }
 
 Bytes flipped(Bytes bytes, std::size_t bit) {
@@ -146,6 +156,29 @@ TEST(Damage, RandomStreamsAreHarmless) {
         for (auto& b : stream) b = static_cast<std::uint8_t>(random.next());
         expect_harmless(seal_envelope(stream, {}), "stream " + std::to_string(i));
     }
+}
+
+// A bound that is known and zero has a shorter code.
+TEST(Damage, AZeroBoundOfTheFunctionsIsABadHeader) {
+    const auto status = [](std::uint32_t exponent) {
+        CodecStream stream;
+        EntropyCoder& coder = stream.coder;
+        coder.code_raw(1, 1), coder.code_raw(0, 1);     // certified, maximum
+        coder.code_raw(0, 16), coder.code_raw(129, 8);  // diagonal: 2
+        coder.code_raw(0, 2);                           // no tolerance
+        coder.code_raw(0, 6), coder.code_raw(0, 6);     // bound_mesh, rms: 0
+        coder.code_raw(1, 1), coder.code_raw(1, 1);     // bound_functions is known and certified
+        coder.code_raw(exponent, 6);
+        if (exponent > 0) coder.code_raw(0, 5);
+        const Bytes bytes = stream.coder.finish();
+        CodecStream reader(bytes);
+        double diagonal = 0;
+        Promise promise;
+        code_promise(reader, diagonal, promise);
+        return reader.status;
+    };
+    EXPECT_EQ(status(20), FormatStatus::ok);
+    EXPECT_EQ(status(0), FormatStatus::bad_header);
 }
 
 // A stream that begins as `begin` writes it and goes on with `tail`.

@@ -49,6 +49,16 @@ class ModelHash {
     void add(const Solid& s) { add(s.nodes); }
     void add(const Sheet& s) { add(s.surface), add(s.trim); }
     void add(const MeshPart& m) { add(m.step_code), add(m.positions), add(m.faces); }
+    void add(const TreeQuadric& q) {
+        add(q.family), add(q.linear_shift), add(q.square_shift), add(q.n), add(q.quadric);
+    }
+    void add(const TreeNode& n) {
+        add(static_cast<std::uint8_t>(n.kind)), add(n.axis), add(n.fine), add(n.position), add(n.quadric);
+        add(n.high), add(n.low), add(n.cut);
+    }
+    void add(const SetTree& t) {
+        add(t.resolution), add(t.low), add(t.high), add(t.complement), add(t.quadrics), add(t.nodes);
+    }
     void add(const Similarity& s) { add(s.scale), add(s.rows), add(s.translation); }
     void add(const Object& o) {
         add(o.frame.scale_code), add(o.frame.offset), add(std::uint64_t{o.shape.index()});
@@ -57,6 +67,7 @@ class ModelHash {
     }
     void add(const Promise& p) {
         add(p.metric == Metric::rms), add(p.tolerance), add(p.bound_mesh), add(p.certified), add(p.rms);
+        add(p.bound_functions), add(p.functions_certified);
     }
     void add(const Model& m) {
         add(m.functions), add(m.objects), add(m.diagonal), add(m.promise);

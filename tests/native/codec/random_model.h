@@ -4,6 +4,7 @@
 #include "pfgeom/base/random.h"
 #include "pfgeom/eval/derive.h"
 #include "pfgeom/function/model.h"
+#include "random_tree.h"
 
 #include <cmath>
 #include <cstdint>
@@ -125,16 +126,21 @@ inline Promise random_promise(Random& random, double diagonal) {
     promise.bound_mesh = promise.tolerance * random.uniform();
     promise.rms = promise.bound_mesh * random.uniform();
     promise.certified = below(random, 2) == 0;
+    if (below(random, 2) == 0) {
+        promise.bound_functions = promise.tolerance * between(random, 0.5, 1);
+        promise.functions_certified = below(random, 2) == 0;
+    }
     return promise;
 }
 
 inline Object random_object(Random& random, int index, int functions) {
     Object object;
     object.frame = random_frame(random);
-    const int shape = below(random, 3);
+    const int shape = below(random, 4);
     if (shape == 0) object.shape = random_solid(random, functions);
     if (shape == 1) object.shape = Sheet{below(random, functions), below(random, functions)};
     if (shape == 2) object.shape = random_mesh_part(random);
+    if (shape == 3) object.shape = random_tree(random, 5);
     if (index > 0 && below(random, 3) == 0) object.cavity_of = below(random, index);
     object.instances.resize(random.below(3));
     for (Similarity& s : object.instances) s = random_similarity(random);
