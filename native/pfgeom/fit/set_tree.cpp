@@ -1,0 +1,188 @@
+#include "pfgeom/fit/set_tree.h"
+
+#include "pfgeom/base/parallel.h"
+#include "pfgeom/fit/tree_checks.h"
+#include "pfgeom/fit/tree_patches.h"
+#include "pfgeom/function/quadric_family.h"
+#include "pfgeom/segment/segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace pfgeom {
+namespace {
+
+// What the levels of effort differ in.
+struct Effort {
+    std::size_t samples;  // of the innermost shell, for each quadric
+    std::size_t most_samples;
+    int scales;               // of a quadric
+    std::vector<int> powers;  // settings that are scouted
+    std::vector<double> single_weights;
+    std::size_t finalists;  // of them
+    int tried;              // questions of a cell, by the finalists
+};
+
+Effort effort_of(int level) {
+    if (level <= 0) return {1000, 100000, 16, {2, 4}, {0.4}, 1, 1};
+    if (level == 1) return {3000, 300000, 40, {1, 2, 3, 4, 6}, {0.1, 0.2, 0.5, 0.9}, 4, 6};
+    return {6000, 800000, 80, {1, 2, 3, 4, 5, 6, 8}, {0.1, 0.2, 0.35, 0.5, 0.7, 0.9}, 8, 10};
+}
+
+// The more seams, the more there is to see; too few are dear, since what they miss is mended leaf by leaf
+// (printed part of 55 quadrics: 40,000 samples end at 1355 bytes, 150,000 at 1264, 400,000 at 1130).
+std::size_t sample_count(const Effort& effort, std::size_t quadrics) {
+    constexpr std::size_t kLeast = 20000;
+    return std::clamp(effort.samples * quadrics, kLeast, effort.most_samples);
+}
+
+// Half the tolerance or a little less is the unit of constants.
+int resolution_for(double tolerance) {
+    int resolution = 0;
+    while (resolution < kMostResolution && std::ldexp(1.0, -resolution) > tolerance / 2) ++resolution;
+    return resolution;
+}
+
+// To the nearest unit: a flat side of the object on the box takes no question.
+void set_box(SetTree& tree, const Box& bounds) {
+    const double unit = std::ldexp(1.0, -(tree.resolution + 1));
+    for (std::size_t d = 0; d < 3; ++d) {
+        const int axis = static_cast<int>(d);
+        tree.low[d] = static_cast<std::int32_t>(std::floor(bounds.lo[axis] / unit + 0.5));
+        tree.high[d] =
+            std::max(tree.low[d] + 1, static_cast<std::int32_t>(std::floor(bounds.hi[axis] / unit + 0.5)));
+    }
+}
+
+// The quadric of each region, the same for regions that one serves.
+void quantise_regions(const TriangleMesh& mesh, const std::vector<Region>& regions,
+                      const TreeFitOptions& options, TreeFit& fit, const Task& task) {
+    const int resolution = fit.tree.resolution, scales = effort_of(options.effort).scales;
+    std::vector<std::vector<CheckPoint>> checks =
+        region_checks(mesh, regions, options.tolerance * options.quantise_share);
+    std::vector<QuantisedQuadric> own(regions.size());
+    parallel_chunks(regions.size(), 1, task, [&](std::size_t r, std::size_t) {
+        std::optional<QuantisedQuadric> best =
+            quantise(regions[r].sums, checks[r], resolution, scales, options.tolerance * options.tolerance);
+        if (!best) {
+            const TreeQuadric fine = round_finely(regions[r].quadric, resolution);
+            best = {fine, estimated_bits(fine)};
+        }
+        own[r] = *best;
+    });
+    Patches patches = assign_patches(mesh, regions, own, options.tolerance * options.quantise_share);
+    fit.quadrics = std::move(patches.quadrics);
+    fit.patches = std::move(patches.of_face);
+}
+
+// The tree as it is written: quadrics in the order of their first use, unused ones dropped.
+void write_tree(TreeFit& fit) {
+    SetTree& tree = fit.tree;
+    tree.quadrics.clear();
+    tree.nodes = fit.raw.nodes;
+    std::vector<std::int32_t> number(fit.quadrics.size(), -1);
+    for (TreeNode& node : tree.nodes) {
+        if (node.kind != TreeNode::Kind::ask) continue;
+        std::int32_t& n = number[static_cast<std::size_t>(node.quadric)];
+        if (n < 0) {
+            n = static_cast<std::int32_t>(tree.quadrics.size());
+            tree.quadrics.push_back(fit.quadrics[static_cast<std::size_t>(node.quadric)].quadric);
+        }
+        node.quadric = n;
+    }
+    fit.bits = fit.raw.bits;
+}
+
+// Bits, and a penalty for what is wrong.
+double price(const RawTree& tree) {
+    return tree.bits + 1000.0 * tree.forced;
+}
+
+std::vector<RawTree> build_all(const TreeFit& fit, std::span<const TreeSample> samples,
+                               const std::vector<BuildOptions>& settings, const Task& task) {
+    const SampleTable table(samples, fit.quadrics, task);
+    std::vector<RawTree> trees(settings.size());
+    parallel_chunks(settings.size(), 1, task, [&](std::size_t i, std::size_t) {
+        trees[i] = build_tree(table, fit.quadrics, fit.tree.box(), settings[i], quiet(task, 1));
+    });
+    return trees;
+}
+
+// Each setting is the best of some mesh. A share of the samples tells which ones are worth a longer look at
+// all.
+std::vector<BuildOptions> scout(const TreeFit& fit, const Effort& effort, const Task& task) {
+    constexpr std::size_t kScouted = 4;  // one in so many samples, which have no order
+    std::vector<BuildOptions> settings;
+    for (const int power : effort.powers) {
+        for (const double weight : effort.single_weights) settings.push_back({power, weight});
+    }
+    const std::vector<RawTree> trees =
+        build_all(fit, std::span(fit.samples).first(fit.samples.size() / kScouted), settings, task);
+    std::vector<std::size_t> order(settings.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return price(trees[i]); });
+    std::vector<BuildOptions> finalists;
+    for (std::size_t k = 0; k < std::min(effort.finalists, order.size()); ++k) {
+        finalists.push_back(settings[order[k]]);
+        finalists.back().tried = effort.tried;
+    }
+    return finalists;
+}
+
+void build(TreeFit& fit, const TreeFitOptions& options, const Task& task) {
+    const std::vector<BuildOptions> finalists = scout(fit, effort_of(options.effort), task);
+    std::vector<RawTree> trees = build_all(fit, fit.samples, finalists, task);
+    const auto best = static_cast<std::size_t>(std::ranges::min_element(trees, {}, price) - trees.begin());
+    fit.build = finalists[best];
+    fit.raw = std::move(trees[best]);
+    fit.wrong = wrong_samples(fit.raw, SampleTable(fit.samples, fit.quadrics, task));
+    write_tree(fit);
+}
+
+}  // namespace
+
+TreeFit fit_set_tree(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOptions& options,
+                     const Task& task) {
+    TreeFit fit;
+    fit.tree.resolution = static_cast<std::uint8_t>(resolution_for(options.tolerance));
+    set_box(fit.tree, bvh.bounds());
+    task.report(0, "finding regions");
+    SegmentOptions segmenting;
+    segmenting.tolerance = options.tolerance * options.fit_share;
+    segmenting.most_regions = options.most_regions;
+    const std::vector<Region> regions = segment(mesh, segmenting, quiet(task, task.threads));
+    if (regions.empty()) return fit;
+    fit.regions = regions.size();
+    task.report(0.2, "rounding quadrics");
+    quantise_regions(mesh, regions, options, fit, quiet(task, task.threads));
+    task.report(0.5, "sampling sides");
+    const SignedDistance distance(mesh, bvh);
+    const SampleOptions sampling{options.tolerance * options.tube_share,
+                                 sample_count(effort_of(options.effort), fit.quadrics.size()), options.seed};
+    fit.samples =
+        sample_sides(mesh, distance, fit.tree.box(), fit.patches, sampling, quiet(task, task.threads));
+    task.report(0.6, "building the tree");
+    build(fit, options, quiet(task, task.threads));
+    task.report(1, "building the tree");
+    return fit;
+}
+
+void repair_set_tree(TreeFit& fit, const Bvh& bvh, std::span<const KnownSide> points, const Task& task) {
+    const Box box = fit.tree.box();
+    for (const KnownSide& known : points) {
+        if (!box.contains(known.point)) continue;
+        fit.samples.push_back({known.point, fit.patches[bvh.closest(known.point).face], known.inside});
+    }
+    const SampleTable table(fit.samples, fit.quadrics, task);
+    fit.raw = repair_tree(fit.raw, table, fit.quadrics, box, fit.build, task);
+    fit.wrong = wrong_samples(fit.raw, table);
+    write_tree(fit);
+}
+
+void rebuild_set_tree(TreeFit& fit, const TreeFitOptions& options, const Task& task) {
+    build(fit, options, task);
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,58 @@
+// A closed mesh as a set-operation tree: regions, their quadrics in integers, points with their side, and the
+// tree that tells them apart. Points do not prove a tolerance: who certifies the tree hands back the points
+// that it gets wrong, and only the leaves that they contradict grow.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/fit/tree_builder.h"
+#include "pfgeom/function/set_tree.h"
+#include "pfgeom/mesh/bvh.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pfgeom {
+
+struct TreeFitOptions {
+    double tolerance = 0;             ///< in the cube's units
+    double fit_share = 0.75;          ///< of the tolerance: what a region's quadric may miss its points by
+    double quantise_share = 0.9;      ///< … once it is rounded to integers
+    double tube_share = 0.97;         ///< from what distance on the side of a point counts
+    std::size_t most_regions = 1000;  ///< a shape with more is for another representation
+    int effort = 1;                   ///< 0 fast, 1 normal, 2 best
+    std::uint64_t seed = 1;
+};
+
+/// A tree, and what it takes to mend it.
+struct TreeFit {
+    SetTree tree;
+    double bits = 0;  ///< estimate of the tree's code
+    std::size_t regions = 0;
+    std::size_t wrong = 0;  ///< samples that the tree gets wrong; 0 unless a leaf could not be split
+
+    RawTree raw;
+    std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not
+    std::vector<std::int32_t> patches;       ///< of each face: its quadric
+    std::vector<TreeSample> samples;
+    BuildOptions build;
+};
+
+/// A point whose side the tree must get right.
+struct KnownSide {
+    Vec3 point;
+    bool inside = false;
+};
+
+/// `mesh` lies in the cube [-1,1]³, closed and oriented outwards; `bvh` is the mesh's. Nothing if the surface
+/// falls into too many regions.
+TreeFit fit_set_tree(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOptions& options,
+                     const Task& task = {});
+
+/// Adds points outside the tube; grows the leaves that they contradict.
+void repair_set_tree(TreeFit& fit, const Bvh& bvh, std::span<const KnownSide> points, const Task& task = {});
+
+/// Builds the tree again from all points that are known by now.
+void rebuild_set_tree(TreeFit& fit, const TreeFitOptions& options, const Task& task = {});
+
+}  // namespace pfgeom

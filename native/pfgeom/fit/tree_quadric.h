@@ -1,0 +1,41 @@
+// The quadric of a region in integers: the family, the units and the integers that take the fewest bits while
+// the surface stays where it must. Source: set-partitioned closed-loop quantisation as in audio and video
+// coders; the successive rounding is Babai's nearest plane ("On Lovász' lattice reduction and the nearest
+// lattice point problem", Combinatorica 6, 1986) with the region's own least squares as the norm. Departure:
+// the scale of a quadric is free, so it is searched as well.
+#pragma once
+
+#include "pfgeom/function/set_tree.h"
+#include "pfgeom/segment/power_sums.h"
+
+#include <optional>
+#include <vector>
+
+namespace pfgeom {
+
+/// A point of the surface and how far the quadric may pass from it.
+struct CheckPoint {
+    Vec3 point;
+    double limit = 0;
+};
+
+struct QuantisedQuadric {
+    TreeQuadric quadric;
+    double bits = 0;  ///< estimate
+};
+
+/// Does the quadric pass all points within their limits (to first order)?
+bool passes(const Quadric& q, const std::vector<CheckPoint>& points);
+
+/// Estimated bits of a quadric's family, units and integers.
+double estimated_bits(const TreeQuadric& q);
+
+/// The cheapest quadric that passes all points, or nothing. `scales`: how many scales are tried. Reorders
+/// `points`: those that decide come first.
+std::optional<QuantisedQuadric> quantise(const PowerSums& sums, std::vector<CheckPoint>& points,
+                                         int resolution, int scales, double normal_weight);
+
+/// The quadric as it is, rounded to the finest units.
+TreeQuadric round_finely(const Quadric& q, int resolution);
+
+}  // namespace pfgeom

@@ -1,0 +1,18 @@
+// Patches of a surface whose vertices lie on one quadric far better than any tolerance asks: tessellations of
+// true quadrics. Merging faces within the tolerance would split such a quadric into many, since the faces
+// miss it by their sagitta; its vertices do not.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/mesh/triangle_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pfgeom {
+
+/// Disjoint groups of faces, rising in each. Flat ones are left to the merging of faces, which needs no
+/// evidence.
+std::vector<std::vector<std::int32_t>> find_exact_patches(const TriangleMesh& mesh, const Task& task = {});
+
+}  // namespace pfgeom

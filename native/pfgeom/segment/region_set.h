@@ -1,0 +1,51 @@
+// Regions that are being merged, and the question whether a quadric serves one.
+#pragma once
+
+#include "pfgeom/segment/segment.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace pfgeom {
+
+/// First-order distance of p to the quadric's surface. The least gradient keeps a singular point (the apex of
+/// a cone, the axis of a fold) from hiding errors; gradients are about 1 on the surface.
+double surface_distance(const Quadric& q, const Vec3& p);
+
+/// Corners, edge middles and centroid: where a triangle is checked.
+std::array<Vec3, 7> check_points(const TriangleMesh& mesh, std::int32_t face);
+
+class RegionSet {
+  public:
+    /// A region for each face.
+    RegionSet(const TriangleMesh& mesh, double tolerance);
+
+    /// What merging would cost, from the sums alone: nothing if they tell that no quadric serves both. Rising
+    /// with the error, in steps, and among equals with the size: balanced merging touches a face log n times.
+    std::optional<double> cost(std::int32_t a, std::int32_t b) const;
+    /// Makes one region of both, with the lower number, if one quadric serves all their faces: that of least
+    /// squares, or, if `refine`, one that gives the worst faces more weight.
+    bool merge(std::int32_t a, std::int32_t b, bool refine = false);
+    /// Lets the quadric of every region miss its worst point by less, where that can be done.
+    void refine_all(const Task& task);
+
+    /// Makes one region, with the lowest number, of these faces that are regions of their own, if one quadric
+    /// serves them all. `faces` rise.
+    bool unite(const std::vector<std::int32_t>& faces);
+
+    std::size_t size(std::int32_t region) const { return regions_[region].faces.size(); }
+    double area(std::int32_t region) const { return regions_[region].area; }
+    std::vector<Region> take();  ///< those with faces, by falling area
+
+  private:
+    bool serves(const Quadric& q, const Region& region) const;
+    double worst_error(const Quadric& q, const Region& region) const;
+    void refine(Region& region, double enough) const;
+
+    const TriangleMesh& mesh_;
+    double tolerance_, normal_weight_;
+    std::vector<Region> regions_;
+};
+
+}  // namespace pfgeom

@@ -1,0 +1,137 @@
+// Best-first merging of regions on their sums.
+// Source: the paper's section "Method", bottom-up; the order as in hierarchical face clustering (Attene,
+// Falcidieno, Spagnuolo, "Hierarchical mesh segmentation based on fitting primitives", 2006). Departures: one
+// primitive, the general quadric; each pair of neighbours is one candidate whose cost is brought up to date
+// only when it comes up, so that a merge does not touch the other neighbours; regions that do not touch are
+// merged as well.
+#include "pfgeom/segment/segment.h"
+
+#include "pfgeom/base/parallel.h"
+#include "pfgeom/mesh/edges.h"
+#include "pfgeom/mesh/union_find.h"
+#include "pfgeom/segment/exact_patches.h"
+#include "pfgeom/segment/region_set.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <tuple>
+
+namespace pfgeom {
+namespace {
+
+// Joining what lies apart has never left fewer than a third of the regions.
+constexpr std::size_t kMostJoined = 4;
+
+// Two regions as they were when the cost was found: regions only grow, so the same size means the same
+// regions.
+struct Candidate {
+    double cost = 0;
+    std::size_t size = 0;
+    std::int32_t a = 0, b = 0;
+
+    friend bool operator>(const Candidate& x, const Candidate& y) {
+        return std::tie(x.cost, x.size, x.a, x.b) > std::tie(y.cost, y.size, y.a, y.b);
+    }
+};
+using Queue = std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>>;
+
+std::optional<Candidate> candidate(const RegionSet& regions, std::int32_t a, std::int32_t b) {
+    const std::optional<double> cost = regions.cost(a, b);
+    if (!cost) return {};
+    return Candidate{*cost, regions.size(a) + regions.size(b), std::min(a, b), std::max(a, b)};
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> neighbours(const TriangleMesh& mesh) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+    EdgeTable(mesh.faces, mesh.vertices.size()).for_each([&](std::span<const EdgeUse> uses) {
+        for (std::size_t i = 1; i < uses.size(); ++i) pairs.emplace_back(uses[0].face(), uses[i].face());
+    });
+    return pairs;
+}
+
+// Costs of many pairs, in their order.
+template <class PairAt>
+std::vector<Candidate> candidates(const RegionSet& regions, std::size_t count, const PairAt& pair_at,
+                                  const Task& task) {
+    constexpr std::size_t kChunk = 1024;
+    std::vector<std::vector<Candidate>> found((count + kChunk - 1) / kChunk);
+    parallel_chunks(count, kChunk, task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto& [a, b] = pair_at(i);
+            if (const auto c = candidate(regions, a, b)) found[begin / kChunk].push_back(*c);
+        }
+    });
+    std::vector<Candidate> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
+void merge_neighbours(const TriangleMesh& mesh, RegionSet& regions, UnionFind& roots, const Task& task) {
+    const auto pairs = neighbours(mesh);
+    Queue queue({}, candidates(
+                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+    for (std::size_t step = 0; !queue.empty(); ++step) {
+        if (step % 64 == 0) task.check();
+        const Candidate next = queue.top();
+        queue.pop();
+        const std::int32_t a = roots.find(next.a), b = roots.find(next.b);
+        if (a == b) continue;
+        if (regions.size(a) + regions.size(b) != next.size) {
+            if (const auto now = candidate(regions, a, b)) queue.push(*now);
+        } else if (regions.merge(a, b)) {
+            roots.join(a, b);
+        }
+    }
+}
+
+// Regions that need not touch: the largest against all.
+void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_t hosts, const Task& task) {
+    std::ranges::stable_sort(
+        alive, [&](std::int32_t a, std::int32_t b) { return regions.area(a) > regions.area(b); });
+    hosts = std::min(hosts, alive.size());
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+    for (std::size_t i = 0; i < hosts; ++i) {
+        for (std::size_t j = i + 1; j < alive.size(); ++j) pairs.emplace_back(alive[i], alive[j]);
+    }
+    Queue queue({}, candidates(
+                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+    for (std::size_t step = 0; !queue.empty(); ++step) {
+        if (step % 64 == 0) task.check();
+        const Candidate next = queue.top();
+        queue.pop();
+        if (regions.size(next.a) == 0 || regions.size(next.b) == 0) continue;
+        if (regions.size(next.a) + regions.size(next.b) != next.size || !regions.merge(next.a, next.b, true))
+            continue;
+        std::erase(alive, next.b);
+        const auto with_next = [&](std::size_t i) { return std::pair(next.a, alive[i]); };
+        for (const Candidate& c : candidates(regions, alive.size(), with_next, quiet(task, 1))) {
+            if (c.a != c.b) queue.push(c);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& options, const Task& task) {
+    RegionSet regions(mesh, options.tolerance);
+    UnionFind roots(mesh.faces.size());
+    for (const auto& faces : find_exact_patches(mesh, task)) {
+        if (!regions.unite(faces)) continue;
+        for (const std::int32_t f : faces) roots.join(faces[0], f);
+    }
+    merge_neighbours(mesh, regions, roots, task);
+    std::vector<std::int32_t> alive;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        if (regions.size(static_cast<std::int32_t>(f)) > 0) alive.push_back(static_cast<std::int32_t>(f));
+    }
+    if (alive.size() / kMostJoined > options.most_regions) return {};
+    merge_apart(regions, std::move(alive), options.hosts, task);
+    regions.refine_all(task);
+    std::vector<Region> result = regions.take();
+    if (result.size() > options.most_regions) result.clear();
+    return result;
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,30 @@
+// Stage 2: the regions of a surface that one quadric serves.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/mesh/triangle_mesh.h"
+#include "pfgeom/segment/power_sums.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pfgeom {
+
+struct Region {
+    std::vector<std::int32_t> faces;  ///< rows of the mesh's faces, rising; not always connected
+    PowerSums sums;                   ///< of the faces, those weighted that the quadric misses most
+    double area = 0;
+    Quadric quadric;  ///< positive inside; serves all check points of the faces
+};
+
+struct SegmentOptions {
+    double tolerance = 0;  ///< of the check points, a distance
+    std::size_t most_regions = static_cast<std::size_t>(-1);
+    std::size_t hosts = 400;  ///< so many largest regions are tried against all others that lie apart
+};
+
+/// Nothing if there are more than options.most_regions. Regions by falling area: neighbours merged best
+/// first, then regions apart that lie on one quadric.
+std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& options, const Task& task = {});
+
+}  // namespace pfgeom

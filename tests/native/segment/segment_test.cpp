@@ -1,0 +1,112 @@
+#include "pfgeom/segment/segment.h"
+
+#include "pfgeom/segment/exact_patches.h"
+#include "pfgeom/segment/region_set.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace pfgeom {
+namespace {
+
+// Every face once, and every region served by its quadric.
+void expect_sound(const TriangleMesh& mesh, const std::vector<Region>& regions, double tolerance) {
+    std::vector<int> seen(mesh.faces.size(), 0);
+    for (const Region& region : regions) {
+        EXPECT_TRUE(std::ranges::is_sorted(region.faces));
+        for (const std::int32_t f : region.faces) {
+            ++seen[f];
+            for (const Vec3& p : check_points(mesh, f)) {
+                EXPECT_LE(surface_distance(region.quadric, p), tolerance * (1 + 1e-9));
+            }
+        }
+    }
+    EXPECT_TRUE(std::ranges::all_of(seen, [](int n) { return n == 1; }));
+    EXPECT_TRUE(std::ranges::is_sorted(regions, std::greater<>{}, &Region::area));
+}
+
+TEST(Segment, OppositeSidesOfACubeAreOneQuadric) {
+    const TriangleMesh mesh = shapes::cube(0.8);
+    const auto regions = segment(mesh, {0.001});
+    EXPECT_EQ(regions.size(), 3U) << "slabs, such as x² = 0.64";
+    expect_sound(mesh, regions, 0.001);
+}
+
+TEST(Segment, ACylinderIsAMantleAndASlab) {
+    const TriangleMesh mesh = shapes::scaled(shapes::cylinder(128), {0.7, 0.7, 0.7});
+    const auto regions = segment(mesh, {0.001});
+    EXPECT_EQ(regions.size(), 2U);
+    expect_sound(mesh, regions, 0.001);
+}
+
+TEST(Segment, AnEllipsoidIsOneRegion) {
+    const TriangleMesh mesh = shapes::ellipsoid({0.9, 0.5, 0.15}, 5);
+    const auto regions = segment(mesh, {0.002});
+    EXPECT_EQ(regions.size(), 1U);
+    expect_sound(mesh, regions, 0.002);
+}
+
+TEST(Segment, RegionsApartOnOneQuadricAreOne) {
+    // Two slabs that both cubes share, and their four other sides in pairs.
+    const TriangleMesh mesh = shapes::joined(shapes::cube(0.2, {-0.5, 0, 0}), shapes::cube(0.2, {0.5, 0, 0}));
+    const auto regions = segment(mesh, {0.001});
+    EXPECT_EQ(regions.size(), 4U);
+    expect_sound(mesh, regions, 0.001);
+    SegmentOptions without_hosts{0.001};
+    without_hosts.hosts = 0;
+    EXPECT_EQ(segment(mesh, without_hosts).size(), 12U) << "without looking for them";
+}
+
+TEST(Segment, ATighterToleranceTakesMoreRegions) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(4);
+    const auto coarse = segment(mesh, {0.02}), fine = segment(mesh, {0.005});
+    expect_sound(mesh, coarse, 0.02);
+    expect_sound(mesh, fine, 0.005);
+    EXPECT_LT(coarse.size(), fine.size());
+}
+
+TEST(Segment, GivesUpOnTooManyRegions) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(4);
+    SegmentOptions options{0.005};
+    const std::size_t regions = segment(mesh, options).size();
+    options.most_regions = regions;
+    EXPECT_EQ(segment(mesh, options).size(), regions);
+    options.most_regions = regions - 1;
+    EXPECT_TRUE(segment(mesh, options).empty());
+}
+
+TEST(Segment, DoesNotDependOnThreads) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(3);
+    const auto one = segment(mesh, {0.01}, {1, nullptr, {}}), three = segment(mesh, {0.01}, {3, nullptr, {}});
+    ASSERT_EQ(one.size(), three.size());
+    for (std::size_t r = 0; r < one.size(); ++r) {
+        EXPECT_EQ(one[r].faces, three[r].faces);
+        EXPECT_EQ(one[r].quadric, three[r].quadric);
+    }
+}
+
+TEST(Segment, CanBeCancelled) {
+    CancelToken token;
+    token.cancel();
+    EXPECT_THROW(segment(shapes::sphere(4), {0.001}, {1, &token, {}}), Cancelled);
+}
+
+TEST(ExactPatches, CoverTessellatedQuadrics) {
+    // Coarse: the faces miss the ellipsoids by far more than the vertices do.
+    const TriangleMesh mesh =
+        shapes::joined(shapes::ellipsoid({0.4, 0.3, 0.2}, 3),
+                       shapes::translated(shapes::ellipsoid({0.2, 0.3, 0.3}, 3), {1, 0, 0}));
+    const auto groups = find_exact_patches(mesh);
+    ASSERT_EQ(groups.size(), 2U);
+    EXPECT_EQ(groups[0].size(), mesh.faces.size() / 2);
+    EXPECT_EQ(groups[1].size(), mesh.faces.size() / 2);
+}
+
+TEST(ExactPatches, AreNotFoundOnFreeForms) {
+    EXPECT_TRUE(find_exact_patches(shapes::bumpy_sphere(4)).empty());
+}
+
+}  // namespace
+}  // namespace pfgeom
