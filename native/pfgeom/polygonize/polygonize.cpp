@@ -23,14 +23,14 @@ constexpr double kEdgeChord = 0.75;
 // Of vertices, in tolerances: does not show beside the chord.
 constexpr double kAccuracy = 0.05;
 
+}  // namespace
+
 void check(const PolygonizeOptions& options) {
     if (!(options.tolerance > 0 && std::isfinite(options.tolerance)))
         throw InvalidInput("polygonize: the tolerance must be a positive number");
     if (options.min_depth < 0 || options.min_depth > options.max_depth || options.max_depth > kDeepest)
         throw InvalidInput("polygonize: depths must satisfy 0 <= min_depth <= max_depth <= 20");
 }
-
-}  // namespace
 
 TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& options, const Task& task) {
     check(options);

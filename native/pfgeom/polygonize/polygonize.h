@@ -4,6 +4,7 @@
 #include "pfgeom/base/limits.h"
 #include "pfgeom/base/task.h"
 #include "pfgeom/eval/scalar_field.h"
+#include "pfgeom/function/set_tree.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
 #include <cstddef>
@@ -18,6 +19,9 @@ struct PolygonizeOptions {
     std::size_t max_faces = Limits{}.polygon_faces;
 };
 
+/// Throws InvalidInput where an option makes no sense.
+void check(const PolygonizeOptions& options);
+
 /// Zero set of `field` within the cube [-1,1]³, outside of which the field counts as negative (the surface is
 /// closed there). Adaptive; vertices lie on the zero set; triangles are counter-clockwise seen from outside
 /// (where the field is < 0); every edge has exactly two faces, in opposite directions, every vertex one fan.
@@ -25,5 +29,10 @@ struct PolygonizeOptions {
 /// Not guaranteed: freedom from self-intersections; features smaller than a cell of max_depth.
 /// Throws LimitExceeded (a cap, named) and Cancelled.
 TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& options, const Task& task = {});
+
+/// The surface of a set tree (`complement` is not applied), with its creases and corners as edges and
+/// vertices of the mesh; the same promises. Walls and grooves show though they are much thinner than the
+/// cells; those thinner than the tolerance may have holes where they are bent.
+TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task = {});
 
 }  // namespace pfgeom

@@ -5,6 +5,7 @@
 #include "pfgeom/base/vec.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pfgeom {
@@ -16,6 +17,11 @@ class SurfaceMesh {
 
     /// `faces`: a closed 2-manifold whose vertices are joined by at most one edge.
     void set_faces(std::vector<Triangle> faces);
+    /// With the neighbours: vertices may be joined by several edges until these are split.
+    void set_faces(std::vector<Triangle> faces, std::vector<std::int32_t> twins) {
+        faces_ = std::move(faces);
+        twins_ = std::move(twins);
+    }
 
     std::size_t face_count() const { return faces_.size(); }
     const std::vector<Triangle>& faces() const { return faces_; }

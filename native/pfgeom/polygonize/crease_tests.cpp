@@ -1,0 +1,118 @@
+#include "pfgeom/polygonize/crease_tests.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfgeom {
+namespace {
+
+constexpr double kFacing = 0.3;  // least cosine between a triangle and the normals at its corners
+constexpr double kThinnest =
+    0.005;  // least height over longest side of new triangles, unless the old are thinner
+constexpr int kMostNeighbours = 16;  // of a vertex after a merge
+// Sine of the least angle between two quadrics at which their curve's direction means anything.
+constexpr double kLeastSine = 0.1;
+
+double thinness(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double side = std::max({squared_norm(b - a), squared_norm(c - a), squared_norm(c - b)});
+    return side > 0 ? norm(cross(b - a, c - a)) / side : 0;
+}
+
+}  // namespace
+
+double CreaseTests::height(Label label, std::int32_t a, std::int32_t b) const {
+    const Vec3 turn = surface_.normal(label, at(b)) - surface_.normal(label, at(a));
+    return std::abs(dot(turn, at(b) - at(a))) / 8;
+}
+
+double CreaseTests::height(Label one, Label other, std::int32_t a, std::int32_t b) const {
+    if (one == other) return height(one, a, b);
+    double most = std::max(height(one, a, b), height(other, a, b));
+    const Vec3 ta = cross(surface_.normal(one, at(a)), surface_.normal(other, at(a)));
+    const Vec3 tb = cross(surface_.normal(one, at(b)), surface_.normal(other, at(b)));
+    const double sa = norm(ta), sb = norm(tb);
+    if (sa > kLeastSine && sb > kLeastSine)
+        most = std::max(most, norm(tb / sb - ta / sa) * norm(at(b) - at(a)) / 8);
+    return most;
+}
+
+double CreaseTests::height(std::int32_t h) const {
+    return height(m_.label_at(h), m_.label_at(m_.mesh.twin(h)), m_.mesh.from(h), m_.mesh.to(h));
+}
+
+bool CreaseTests::faces_outside(Label label, const Vec3& a, const Vec3& b, const Vec3& c, double thinnest,
+                                double facing) const {
+    const Vec3 n = cross(b - a, c - a);
+    const double area = norm(n);
+    if (!(area > 0) || thinness(a, b, c) < thinnest) return false;
+    for (const Vec3* p : {&a, &b, &c})
+        if (dot(n, surface_.normal(label, *p)) < facing * area) return false;
+    return true;
+}
+
+// A vertex within a face goes anywhere; one on a crease along it; one where creases meet stays.
+bool CreaseTests::keeps_creases(std::int32_t h) const {
+    int creases = 0;
+    std::int32_t spoke = h;
+    do {
+        creases += m_.crease(spoke);
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return creases == 0 || (creases == 2 && m_.crease(h));
+}
+
+bool CreaseTests::keeps_faces(std::int32_t h, double thinnest, double facing) const {
+    const std::int32_t b = m_.mesh.to(h);
+    std::int32_t spoke = h;
+    do {
+        const std::int32_t x = m_.mesh.to(spoke), y = m_.mesh.apex(spoke);
+        if (x != b && y != b) {
+            const double now = thinness(at(m_.mesh.from(h)), at(x), at(y));
+            if (!faces_outside(m_.label_at(spoke), at(b), at(x), at(y), std::min(now, thinnest), facing))
+                return false;
+        }
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return true;
+}
+
+bool CreaseTests::may_merge(std::int32_t h, double limit) const {
+    const std::int32_t b = m_.mesh.to(h);
+    if (!keeps_creases(h) || height(h) > limit) return false;
+    int neighbours = m_.mesh.valence(m_.mesh.twin(h)) - 4;
+    std::int32_t spoke = h;
+    do {
+        ++neighbours;
+        const std::int32_t x = m_.mesh.to(spoke);
+        if (x != b && height(m_.label_at(spoke), m_.label_at(m_.mesh.twin(spoke)), b, x) > limit)
+            return false;
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return neighbours <= kMostNeighbours && keeps_faces(h, kThinnest, kFacing);
+}
+
+bool CreaseTests::may_drop(std::int32_t h) const {
+    return keeps_faces(h, 0, kFacing);
+}
+
+bool CreaseTests::should_flip(std::int32_t h, double tolerance) const {
+    if (m_.crease(h)) return false;
+    const std::int32_t g = m_.mesh.twin(h);
+    const Label label = m_.label_at(h);
+    const std::int32_t a = m_.mesh.from(h), b = m_.mesh.to(h), c = m_.mesh.apex(h), d = m_.mesh.apex(g);
+    const Vec3 ca = at(a) - at(c), cb = at(b) - at(c), da = at(a) - at(d), db = at(b) - at(d);
+    const double sine_c = norm(cross(ca, cb)), sine_d = norm(cross(da, db));
+    const double opposite = dot(ca, cb) * sine_d + dot(da, db) * sine_c;
+    const bool rounder = opposite < -1e-9 * (norm(ca) * norm(cb)) * (norm(da) * norm(db));
+    const bool now_low = height(label, a, b) <= tolerance, then_low = height(label, c, d) <= tolerance;
+    const bool lower = then_low && !now_low;
+    if (!lower && !(rounder && then_low == now_low)) return false;
+    const double thinnest = lower ? kThinnest : 0;
+    if (!faces_outside(label, at(c), at(d), at(b), thinnest, kFacing) ||
+        !faces_outside(label, at(d), at(c), at(a), thinnest, kFacing))
+        return false;
+    return c != d && m_.mesh.valence(h) > 3 && m_.mesh.valence(g) > 3 &&
+           !m_.mesh.joined(SurfaceMesh::previous(h), d);
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,41 @@
+// What merging or turning an edge of a labelled mesh would do to its error, shape and creases. Normals are
+// those of the faces' quadrics, so that a vertex has one for each quadric that it lies on; otherwise as in
+// edge_tests.h.
+#pragma once
+
+#include "pfgeom/polygonize/label_surface.h"
+#include "pfgeom/polygonize/labelled_mesh.h"
+
+namespace pfgeom {
+
+class CreaseTests {
+  public:
+    CreaseTests(const LabelledMesh& mesh, const LabelSurface& surface) : m_(mesh), surface_(surface) {}
+
+    double squared_length(std::int32_t h) const {
+        return squared_norm(at(m_.mesh.to(h)) - at(m_.mesh.from(h)));
+    }
+    /// Of the arc on the label's quadric between two vertices.
+    double height(Label label, std::int32_t a, std::int32_t b) const;
+    /// Of the edge: on both its faces' quadrics and, of a crease, of the curve in which they meet.
+    double height(std::int32_t h) const;
+    /// Merging from(h) into to(h): no arc above the limit, no triangle turned over, creases stay.
+    bool may_merge(std::int32_t h, double limit) const;
+    /// The same for edges so short that nothing is lost with them: across creases too.
+    bool may_drop(std::int32_t h) const;
+    bool should_flip(std::int32_t h, double tolerance) const;
+    /// Does the triangle face the outside of the label's quadric at its corners?
+    bool faces_outside(Label label, const Vec3& a, const Vec3& b, const Vec3& c, double thinnest,
+                       double facing) const;
+
+  private:
+    const Vec3& at(std::int32_t v) const { return m_.mesh.position[v]; }
+    double height(Label one, Label other, std::int32_t a, std::int32_t b) const;
+    bool keeps_creases(std::int32_t h) const;
+    bool keeps_faces(std::int32_t h, double thinnest, double facing) const;
+
+    const LabelledMesh& m_;
+    const LabelSurface& surface_;
+};
+
+}  // namespace pfgeom

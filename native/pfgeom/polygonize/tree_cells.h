@@ -1,0 +1,34 @@
+// The surface of a set tree between tetrahedra: a conforming partition of the space near it, each of whose
+// parts lies on one side of every question that matters there.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/eval/pruned_tree.h"
+#include "pfgeom/polygonize/polygonize.h"
+#include "pfgeom/polygonize/tetrahedra.h"
+
+namespace pfgeom {
+
+/// Questions on whose zero sets a vertex has been put; -1 fills up. More than six are not remembered.
+using Zeros = std::array<std::int32_t, 6>;
+constexpr Zeros kNoZeros{-1, -1, -1, -1, -1, -1};
+
+struct TreeCells {
+    std::vector<Vec3> position;
+    std::vector<Zeros> zeros;        ///< by vertex
+    std::vector<Tetrahedron> cells;  ///< where there is none, the tree says the same all around
+
+    /// Of a vertex from a question's zero set, to first order; positive on the high side.
+    double distance(const TreePruner& tree, std::int32_t vertex, std::int32_t question) const;
+};
+
+/// Cells near the surface, fine enough for its questions to be flat in them to within `chord`.
+TreeCells cells_near_surface(const TreePruner& tree, const PolygonizeOptions& options, double chord,
+                             const Task& task);
+
+/// Cuts the cells by the questions until each ends in a leaf, its `node`. Vertices closer than `snap` to a
+/// question's zero set count as on it.
+void cut_cells(const TreePruner& tree, double snap, std::size_t max_cells, TreeCells& cells,
+               const Task& task);
+
+}  // namespace pfgeom
