@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pfgeom/base/task.h"
+#include "pfgeom/compress/compress.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/bvh.h"
 #include "pfgeom/report/deviation.h"
@@ -21,21 +22,26 @@ struct Goal {
     Metric metric = Metric::max;
     double diagonal = 0;  ///< of the whole input
     bool inward = false;  ///< closed, and its normals point inwards
+    Effort effort = Effort::normal;
 };
 
 /// A representation that was written, read back, polygonized and measured.
 struct Outcome {
-    std::string candidate;            ///< "quadric", "hierarchy" or "mesh"
+    std::string candidate;            ///< "quadric", "tree", "hierarchy" or "mesh"
     std::vector<Function> functions;  ///< of the one object; its nodes count from 0
     Object object;
     std::size_t bytes = 0;  ///< as a file of its own
     TriangleMesh mesh;      ///< the default mesh
     Deviation deviation;
     bool holds = false;
+    double bound_functions = 0;  ///< proved of the functions' own surface, in the mesh's units; 0: not known
 };
 
 /// One ellipsoid.
 std::optional<Outcome> try_quadric(const Goal& goal, const Task& task);
+/// A set-operation tree over quadrics, for a closed island that is made of them. Gives up when it needs more
+/// than `most_bytes`.
+std::optional<Outcome> try_tree(const Goal& goal, std::size_t most_bytes, const Task& task);
 /// Base quadric + hierarchy of perturbations, for a closed island. Gives up when it needs more than
 /// `most_bytes`.
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);

@@ -55,10 +55,12 @@ class Compressor {
         }
     }
 
+    // Where seams were closed, the prepared mesh differs from the input by up to their distance.
+    double moved() const { return prepared_.defects.seam_edges > 0 ? kSeamShare * tolerance_ : 0; }
+
     Goal goal_of(const TriangleMesh& mesh, const Bvh& bvh, bool inward) const {
-        // Where seams were closed, the prepared mesh differs from the input by up to their distance.
-        const double moved = prepared_.defects.seam_edges > 0 ? kSeamShare * tolerance_ : 0;
-        return {mesh, bvh, share_ * (tolerance_ - moved), options_.metric, prepared_.diagonal, inward};
+        const double tolerance = share_ * (tolerance_ - moved());
+        return {mesh, bvh, tolerance, options_.metric, prepared_.diagonal, inward, options_.effort};
     }
 
     void fit_islands() {
@@ -97,7 +99,11 @@ class Compressor {
         if (by_max || !large) plain = try_mesh(goal, task);
         // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
         if (by_max && large && plain->holds) return plain;
-        std::optional<Outcome> best = try_hierarchy(goal, plain ? plain->bytes : std::size_t{1} << 24, task);
+        std::size_t most_bytes = plain ? plain->bytes : std::size_t{1} << 24;
+        std::optional<Outcome> tree = try_tree(goal, most_bytes, task);
+        if (tree) most_bytes = std::min(most_bytes, tree->bytes);
+        std::optional<Outcome> best = try_hierarchy(goal, most_bytes, task);
+        if (tree && (!best || tree->bytes <= best->bytes)) best = std::move(tree);
         if (plain && plain->holds && (!best || plain->bytes <= best->bytes)) best = std::move(plain);
         return best;
     }
@@ -110,6 +116,7 @@ class Compressor {
         const std::size_t n = prepared_.islands.size();
         model_ = {};
         model_.diagonal = prepared_.diagonal;
+        of_mesh_part_.reset();
         std::vector<std::int32_t> object_of(n, -1);
         std::vector<std::size_t> rest;
         for (const std::size_t i : by_nesting()) {
@@ -142,13 +149,17 @@ class Compressor {
         const std::int32_t outer =
             island.parent >= 0 ? object_of[static_cast<std::size_t>(island.parent)] : -1;
         const auto offset = static_cast<std::int32_t>(model_.functions.size());
-        auto& nodes = std::get<Solid>(object.shape).nodes;
+        auto* solid = std::get_if<Solid>(&object.shape);
+        auto* tree = std::get_if<SetTree>(&object.shape);
         if (island.signed_volume < 0 && outer >= 0) {
             object.cavity_of = outer;  // then the solid is the hollow itself
-            nodes.pop_back();
+            if (solid != nullptr) solid->nodes.pop_back();
+            if (tree != nullptr) tree->complement = false;
         }
-        for (SetNode& node : nodes) {
-            if (node.kind == SetNode::Kind::function) node.a += offset;
+        if (solid != nullptr) {
+            for (SetNode& node : solid->nodes) {
+                if (node.kind == SetNode::Kind::function) node.a += offset;
+            }
         }
         for (Function& f : chosen_[i]->functions) model_.functions.push_back(f);
         model_.objects.push_back(std::move(object));
@@ -158,6 +169,7 @@ class Compressor {
     void add_mesh_part(const std::vector<std::size_t>& rest) {
         if (rest.size() == 1 && chosen_[rest[0]]) {
             model_.objects.push_back(chosen_[rest[0]]->object);
+            of_mesh_part_ = chosen_[rest[0]]->deviation;
             return;
         }
         Island together;
@@ -170,6 +182,25 @@ class Compressor {
         const Bvh bvh(mesh);
         Outcome outcome = try_mesh(goal_of(mesh, bvh, false), part_of(task_, 0.82, 0.95));
         model_.objects.push_back(std::move(outcome.object));
+        of_mesh_part_ = outcome.deviation;
+    }
+
+    // What is proved of the functions' own surface; a mesh part is its own default mesh. Nothing if an
+    // island's function has no proof, or if all is mesh and bound_mesh says it.
+    void promise_functions() {
+        double worst = 0;
+        for (std::size_t i = 0; i < chosen_.size(); ++i) {
+            if (!is_function(i)) continue;
+            if (chosen_[i]->bound_functions == 0) return;
+            worst = std::max(worst, chosen_[i]->bound_functions);
+        }
+        if (worst == 0) return;
+        const bool certified = !of_mesh_part_ || of_mesh_part_->certified;
+        if (of_mesh_part_) {
+            worst = std::max(worst, certified ? of_mesh_part_->max_bound() : of_mesh_part_->max());
+        }
+        model_.promise.bound_functions = worst + moved();
+        model_.promise.functions_certified = certified;
     }
 
     // The promise is measured on the decoded bytes, against the input as it was given; its figures change a
@@ -188,6 +219,7 @@ class Compressor {
         model_.promise.certified = d.certified;
         model_.promise.bound_mesh = d.certified ? d.max_bound() : d.max();
         model_.promise.rms = d.rms();
+        promise_functions();
         result_.bytes = encode(model_);
         result_.model = *decode(result_.bytes);
         fill_report(mesh);
@@ -220,6 +252,7 @@ class Compressor {
     double share_ = 1;  // of the tolerance, that the islands may use
     PreparedMesh prepared_;
     std::vector<std::optional<Outcome>> chosen_;
+    std::optional<Deviation> of_mesh_part_;
     Model model_;
     Compressed result_;
 };

@@ -14,16 +14,20 @@
 
 namespace pfgeom {
 
+/// How long to look for fewer bytes. The promise is the same.
+enum class Effort : std::uint8_t { fast, normal, best };
+
 struct CompressOptions {
     double tolerance = 1e-3;  ///< > 0
     bool relative = true;     ///< tolerance is a share of the bounding box's diagonal
     Metric metric = Metric::max;
+    Effort effort = Effort::normal;
 };
 
 /// What became of one island.
 struct IslandReport {
     std::int64_t faces = 0;
-    std::string candidate;  ///< "hierarchy" or "mesh"
+    std::string candidate;  ///< "quadric", "tree", "hierarchy" or "mesh"
     double bytes = 0;       ///< estimated: objects share one stream
 };
 
@@ -54,7 +58,8 @@ struct MeshOptions {
 TriangleMesh to_mesh(const Model& model, const MeshOptions& options = {}, const Task& task = {});
 
 /// The headline figure: surface functions + separators and trims + perturbations, and triangles of mesh
-/// parts.
+/// parts. Every distinct quadric of a tree counts as a surface function, those that only separate included:
+/// which are which is a question about space, not about the tree.
 struct FunctionCount {
     std::int64_t surface = 0, separators = 0, perturbations = 0, mesh_part_faces = 0;
 };

@@ -6,6 +6,7 @@
 #include "pfgeom/polygonize/polygonize.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pfgeom {
@@ -49,21 +50,30 @@ PolygonizeOptions polygonize_options(const Model& model, const Object& object, c
     return result;
 }
 
+void turn_faces(TriangleMesh& mesh) {
+    for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
+}
+
+// A complement fills the cube; its surface is that of its operand, with the faces turned.
 TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
                            const Task& task) {
     if (std::holds_alternative<MeshPart>(object.shape)) return mesh_of(object);
-    const auto* solid = std::get_if<Solid>(&object.shape);
-    if (solid == nullptr) throw InvalidInput("sheets cannot be polygonized yet");
-    const bool complement = !solid->nodes.empty() && solid->nodes.back().kind == SetNode::Kind::complement;
-    Solid shape = *solid;
-    if (complement)
-        shape.nodes.pop_back();  // a complement fills the cube; its surface is that of its operand
-    const SolidField field(model, shape);
-    TriangleMesh mesh = polygonize(field, polygonize_options(model, object, options), task);
-    for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
-    if (complement || object.cavity_of >= 0) {
-        for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
+    const PolygonizeOptions how = polygonize_options(model, object, options);
+    TriangleMesh mesh;
+    bool complement = false;
+    if (const auto* solid = std::get_if<Solid>(&object.shape)) {
+        complement = !solid->nodes.empty() && solid->nodes.back().kind == SetNode::Kind::complement;
+        Solid shape = *solid;
+        if (complement) shape.nodes.pop_back();
+        mesh = polygonize(SolidField(model, shape), how, task);
+    } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
+        complement = tree->complement;
+        mesh = polygonize(*tree, how, task);
+    } else {
+        throw InvalidInput("sheets cannot be polygonized yet");
     }
+    for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
+    if (complement || object.cavity_of >= 0) turn_faces(mesh);
     return mesh;
 }
 
@@ -76,10 +86,16 @@ void append(TriangleMesh& all, const TriangleMesh& mesh) {
 TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
     TriangleMesh copy = mesh;
     for (Vec3& v : copy.vertices) v = s.apply(v);
-    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) {
-        for (Triangle& t : copy.faces) std::swap(t[1], t[2]);
-    }
+    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) turn_faces(copy);
     return copy;
+}
+
+// Different sets of coefficients.
+std::int64_t distinct_quadrics(const SetTree& tree) {
+    std::vector<std::array<double, 10>> coefficients;
+    for (const TreeQuadric& q : tree.quadrics) coefficients.push_back(q.quadric.c);
+    std::sort(coefficients.begin(), coefficients.end());
+    return std::unique(coefficients.begin(), coefficients.end()) - coefficients.begin();
 }
 
 }  // namespace
@@ -110,8 +126,10 @@ FunctionCount count_functions(const Model& model) {
         } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
             surface[static_cast<std::size_t>(sheet->surface)] = used[static_cast<std::size_t>(sheet->trim)] =
                 1;
-        } else {
-            for (const SetNode& node : std::get<Solid>(object.shape).nodes) {
+        } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
+            count.surface += distinct_quadrics(*tree);
+        } else if (const auto* solid = std::get_if<Solid>(&object.shape)) {
+            for (const SetNode& node : solid->nodes) {
                 if (node.kind == SetNode::Kind::function) surface[static_cast<std::size_t>(node.a)] = 1;
                 if (node.kind == SetNode::Kind::decide) used[static_cast<std::size_t>(node.f)] = 1;
             }

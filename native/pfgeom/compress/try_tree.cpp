@@ -1,0 +1,184 @@
+// A set-operation tree: fitted to points, certified by the pruned octree, mended where the certificate finds
+// points on the wrong side, then proved like every candidate on its bytes and its default mesh.
+#include "pfgeom/base/random.h"
+#include "pfgeom/compress/candidate.h"
+#include "pfgeom/compress/mesh_code.h"
+#include "pfgeom/fit/set_tree.h"
+#include "pfgeom/mesh/signed_distance.h"
+#include "pfgeom/report/tree_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pfgeom {
+namespace {
+
+// Shares of the tolerance: what the tree is certified to, and the chords of the default mesh. Nothing is lost
+// by their sum above one: chords are longest where the quadrics are not at their worst, and the mesh is
+// measured.
+constexpr double kTreeShare = 0.97, kChordShare = 0.06;
+constexpr int kMostRounds = 6, kMostProofs = 3;
+// More cells than these left open by a certificate: the tree is far from what it should be.
+constexpr std::int64_t kMostUnresolved = 100'000;
+// A region costs at least so many bytes.
+constexpr std::size_t kBytesOfRegion = 4;
+// Cells at the border of the tube while there is something to mend: finer ones cost time and find no more.
+constexpr double kRoughest = 1.0 / 16;
+// Of the tolerance, where the final certificate looks: what its cells leave open then stays below one.
+constexpr double kProofShare = 0.985;
+// Points beside a counter-example, and how far away, in tolerances.
+constexpr std::size_t kBeside = 3, kMostJittered = 10'000;
+constexpr double kJitter = 0.7;
+
+// How far regions, rounded quadrics and the points beside the surface may use the tolerance. What leaves the
+// seams room on one mesh costs functions on another (fandisk: the first, 1706459: the last).
+struct Shares {
+    double fit, quantise, tube;
+};
+constexpr Shares kShares[] = {{0.6, 0.85, 0.95}, {0.75, 0.93, 0.985}};
+
+class TreeSearch {
+  public:
+    TreeSearch(const Goal& goal, std::size_t most_bytes, const Task& task)
+        : goal_(goal),
+          most_bytes_(most_bytes),
+          task_(task),
+          frame_(Frame::around(goal.bvh.bounds())),
+          mesh_(in_cube(goal, frame_)),
+          bvh_(mesh_),
+          distance_(mesh_, bvh_),
+          tolerance_(goal.tolerance / frame_.half()) {}
+
+    std::optional<Outcome> run() {
+        double share = kTreeShare;
+        for (int proof = 0; proof < kMostProofs; ++proof) {
+            std::optional<Certified> found = smallest(share * tolerance_);
+            if (!found) return {};
+            Outcome outcome = prove_tree(*std::move(found));
+            if (outcome.holds || outcome.mesh.faces.empty()) {
+                return outcome.holds ? std::optional(std::move(outcome)) : std::nullopt;
+            }
+            share *= std::clamp(0.99 * goal_.tolerance / outcome.deviation.max(), 0.7, 0.97);
+        }
+        return {};
+    }
+
+  private:
+    struct Certified {
+        SetTree tree;
+        double bound = 0;  // in the cube's units
+    };
+
+    static TriangleMesh in_cube(const Goal& goal, const Frame& frame) {
+        TriangleMesh mesh = goal.mesh;
+        for (Vec3& v : mesh.vertices) v = frame.to_local(v);
+        if (goal.inward) {
+            for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
+        }
+        return mesh;
+    }
+
+    // Of the settings, the certified tree with the fewest bits. The smallest is mended first: it may stay
+    // below what the others begin with.
+    std::optional<Certified> smallest(double tolerance) const {
+        std::vector<TreeFit> fits;
+        const std::size_t settings = goal_.effort == Effort::fast ? 1 : std::size(kShares);
+        for (const Shares& shares : std::span(kShares).first(settings)) {
+            TreeFitOptions options;
+            options.tolerance = tolerance;
+            options.effort = static_cast<int>(goal_.effort);
+            options.fit_share = shares.fit;
+            options.quantise_share = shares.quantise;
+            options.tube_share = shares.tube;
+            options.most_regions = std::max<std::size_t>(most_bytes_ / kBytesOfRegion, 1);
+            fits.push_back(fit_set_tree(mesh_, bvh_, options, task_));
+            if (fits.back().tree.nodes.empty()) return {};
+        }
+        std::ranges::stable_sort(fits, {}, &TreeFit::bits);
+        std::optional<Certified> best;
+        double least = 8.0 * static_cast<double>(most_bytes_);
+        for (TreeFit& fit : fits) {
+            if (fit.bits >= least) continue;
+            const std::optional<double> bound = certify(fit, tolerance, least);
+            if (!bound) continue;
+            least = fit.bits;
+            best = {std::move(fit.tree), *bound};
+        }
+        return best;
+    }
+
+    // Mends the tree until the certificate finds nothing wrong: what it then proves, in the cube's
+    // units. Nothing: it does not come to that, or the tree grows beyond `most_bits`.
+    std::optional<double> certify(TreeFit& fit, double tolerance, double most_bits) const {
+        Random random(1);
+        for (int round = 0; round < kMostRounds; ++round) {
+            TreeBoundOptions rough;
+            rough.finest = kRoughest;
+            const TreeBound bound = bound_tree(fit.tree, mesh_, bvh_, tolerance, rough, task_);
+            if (!bound.sides_defined || bound.counts.unresolved > kMostUnresolved) return {};
+            double worst = 0;
+            for (const LabelledPoint& p : bound.counter_examples) worst = std::max(worst, p.distance);
+            const double proof = kProofShare * tolerance_;
+            if (worst <= proof && bound.missed.empty()) {
+                const TreeBound exact = bound_tree(fit.tree, mesh_, bvh_, proof, {}, task_);
+                if (exact.holds(tolerance_)) return exact.proved;
+            }
+            if (bound.counter_examples.empty() && bound.missed.empty()) return {};
+            repair_set_tree(fit, bvh_, evidence(bound, tolerance, random), task_);
+            if (fit.bits > most_bits) return {};
+        }
+        return {};
+    }
+
+    // All that the certificate has labelled; about its counter-examples, whose cells are small, points beside
+    // them as well: else the next one lies there.
+    std::vector<KnownSide> evidence(const TreeBound& bound, double tolerance, Random& random) const {
+        std::vector<KnownSide> points;
+        for (const auto* list : {&bound.counter_examples, &bound.missed, &bound.labels}) {
+            for (const LabelledPoint& p : *list) points.push_back({p.point, p.inside});
+        }
+        const std::size_t count = std::min(bound.counter_examples.size(), kMostJittered);
+        for (std::size_t i = 0; i < kBeside * count; ++i) {
+            const LabelledPoint& known = bound.counter_examples[i % count];
+            Vec3 p = known.point;
+            for (int axis = 0; axis < 3; ++axis) p[axis] += kJitter * tolerance * (2 * random.uniform() - 1);
+            const SignedClosest closest = distance_(p, known.face);
+            if (std::abs(closest.distance) > tolerance) points.push_back({p, closest.distance > 0});
+        }
+        return points;
+    }
+
+    Outcome prove_tree(Certified found) const {
+        Outcome outcome;
+        outcome.candidate = "tree";
+        outcome.bound_functions = found.bound * frame_.half();
+        found.tree.complement = goal_.inward;
+        outcome.object.frame = frame_;
+        outcome.object.shape = std::move(found.tree);
+        outcome.object.mesh_code = mesh_code_for(goal_, kChordShare * goal_.tolerance);
+        prove(goal_, outcome, task_);
+        return outcome;
+    }
+
+    const Goal& goal_;
+    std::size_t most_bytes_;
+    const Task& task_;
+    Frame frame_;
+    TriangleMesh mesh_;  // in the cube, normals outwards
+    Bvh bvh_;
+    SignedDistance distance_;
+    double tolerance_;  // in the cube's units
+};
+
+}  // namespace
+
+std::optional<Outcome> try_tree(const Goal& goal, std::size_t most_bytes, const Task& task) {
+    if (goal.metric != Metric::max) return {};
+    return TreeSearch(goal, most_bytes, task).run();
+}
+
+}  // namespace pfgeom
