@@ -30,10 +30,7 @@ def main() -> None:
     example = args.out / "example.ply"
     pfgeom.write_mesh(example, make_example())
     rows = [row(path, tolerance, args.out) for path in inputs(example, args.mesh) for tolerance in TOLERANCES]
-    print_table([HEADINGS, *rows])
-    print("\nmax and rms: two-sided, measured, as shares of the diagonal; functions: surface + separators +")
-    print("perturbations (+ triangles of mesh parts); raw bytes: 12 a vertex, 12 a triangle.")
-    print(f"The files and the rebuilt meshes are in {args.out}/")
+    print_results(rows, args.out)
 
 
 def inputs(example: Path, mesh: str | None) -> list[Path]:
@@ -68,10 +65,15 @@ def row(path: Path, tolerance: float, out: Path) -> tuple[str, ...]:
     )
 
 
-def print_table(rows: list[tuple[str, ...]]) -> None:
-    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
-    for cells in rows:
+def print_results(rows: list[tuple[str, ...]], out: Path) -> None:
+    """The table, and what its columns are."""
+    table = [HEADINGS, *rows]
+    widths = [max(len(cell) for cell in column) for column in zip(*table, strict=True)]
+    for cells in table:
         print("  ".join(cell.rjust(width) for cell, width in zip(cells, widths, strict=True)))
+    print("\nmax and rms: two-sided, measured, as shares of the diagonal; functions: surface + separators +")
+    print("perturbations (+ triangles of mesh parts); raw bytes: 12 a vertex, 12 a triangle.")
+    print(f"The files and the rebuilt meshes are in {out}/")
 
 
 if __name__ == "__main__":

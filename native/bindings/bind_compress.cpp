@@ -11,9 +11,11 @@ namespace pfgeom::bindings {
 namespace {
 
 py::tuple compress_arrays(const Points& vertices, const Indices& faces, double tolerance, bool relative,
-                          bool rms, int threads, py::object progress, const CancelToken* cancel) {
+                          bool rms, std::uint8_t effort, int threads, py::object progress,
+                          const CancelToken* cancel) {
     const auto mesh = std::make_shared<const TriangleMesh>(mesh_from(vertices, faces));
-    const CompressOptions options{tolerance, relative, rms ? Metric::rms : Metric::max};
+    const CompressOptions options{tolerance, relative, rms ? Metric::rms : Metric::max,
+                                  static_cast<Effort>(effort)};
     Job job(threads, std::move(progress), cancel);
     Compressed result = job.run([=](const Task& task) { return compress(*mesh, options, task); });
     const py::dict report = describe_report(result.report);
@@ -25,8 +27,8 @@ py::tuple compress_arrays(const Points& vertices, const Indices& faces, double t
 
 void bind_compress(py::module_& m) {
     m.def("compress", &compress_arrays, py::arg("vertices").noconvert(), py::arg("faces").noconvert(),
-          py::arg("tolerance"), py::arg("relative"), py::arg("rms"), py::arg("threads"), py::arg("progress"),
-          py::arg("cancel"), "(Model, what was measured on the way)");
+          py::arg("tolerance"), py::arg("relative"), py::arg("rms"), py::arg("effort"), py::arg("threads"),
+          py::arg("progress"), py::arg("cancel"), "(Model, what was measured on the way)");
 }
 
 }  // namespace pfgeom::bindings

@@ -10,6 +10,7 @@ namespace pfgeom::bindings {
 void bind_errors(pybind11::module_& m);
 void bind_task(pybind11::module_& m);
 void bind_mesh(pybind11::module_& m);
+void bind_function(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
 void bind_compress(pybind11::module_& m);
 void bind_report(pybind11::module_& m);

@@ -1,8 +1,12 @@
 #include "describe.h"
 
 #include "pfgeom/codec/codec.h"
+#include "pfgeom/function/quadric_family.h"
 
 #include <pybind11/stl.h>
+
+#include <array>
+#include <string>
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -18,6 +22,17 @@ py::dict describe_shape(const Sheet&) {
 }
 py::dict describe_shape(const MeshPart& part) {
     return py::dict("kind"_a = "mesh", "vertices"_a = part.positions.size(), "faces"_a = part.faces.size());
+}
+// Its quadrics by family, in the order of the families.
+py::dict describe_shape(const SetTree& tree) {
+    std::array<int, kQuadricFamilies> count{};
+    for (const TreeQuadric& q : tree.quadrics) ++count[q.family];
+    py::dict families;
+    for (std::size_t i = 0; i < kQuadricFamilies; ++i) {
+        if (count[i] > 0) families[py::str(std::string(quadric_families()[i].name))] = count[i];
+    }
+    return py::dict("kind"_a = "tree", "nodes"_a = tree.nodes.size(), "quadrics"_a = tree.quadrics.size(),
+                    "families"_a = families);
 }
 
 py::dict describe_one_sided(const OneSided& side) {
@@ -57,7 +72,9 @@ py::dict describe_promise(const Model& model) {
     const Promise& promise = model.promise;
     return py::dict("metric"_a = promise.metric == Metric::max ? "max" : "rms",
                     "tolerance"_a = promise.tolerance, "bound_mesh"_a = promise.bound_mesh,
-                    "certified"_a = promise.certified, "rms"_a = promise.rms, "diagonal"_a = model.diagonal);
+                    "certified"_a = promise.certified, "rms"_a = promise.rms,
+                    "bound_functions"_a = promise.bound_functions,
+                    "functions_certified"_a = promise.functions_certified, "diagonal"_a = model.diagonal);
 }
 
 py::dict describe_sizes(const Model& model) {

@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, m) {
     bind_errors(m);
     bind_task(m);
     bind_mesh(m);
+    bind_function(m);
     bind_model(m);
     bind_compress(m);
     bind_report(m);

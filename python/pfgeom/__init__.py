@@ -18,6 +18,7 @@ from .encoder import compress
 from .errors import Cancelled, FormatError, LimitError, PfgeomError
 from .meshes import Mesh, read_mesh, write_mesh
 from .model import FunctionCount, Model, from_bytes, load
+from .quadrics import nine_points
 from .tasks import CancelToken, Progress
 
 __all__ = [
@@ -37,6 +38,7 @@ __all__ = [
     "compress",
     "from_bytes",
     "load",
+    "nine_points",
     "read_mesh",
     "write_mesh",
 ]

@@ -38,6 +38,10 @@ def _add_compress(commands: Any) -> None:
     command.add_argument(
         "--metric", choices=("max", "rms"), default="max", help="what the tolerance limits (default max)"
     )
+    command.add_argument(
+        "--effort", choices=("fast", "normal", "best"), default="normal",
+        help="how long to look for fewer bytes within the same tolerance (default normal); changes set trees only",
+    )  # fmt: skip
     _add_common(command)
 
 

@@ -70,6 +70,7 @@ def run_compress(args: argparse.Namespace) -> None:
             tolerance=args.tolerance,
             relative=not args.absolute,
             metric=args.metric,
+            effort=args.effort,
             threads=args.threads,
             progress=progress,
         )
@@ -154,6 +155,8 @@ def _promise_figures(model: Model) -> dict[str, Any]:
         "bound_mesh": model.bound_mesh,
         "certified": model.certified,
         "rms": model.rms,
+        "bound_functions": model.bound_functions,
+        "functions_certified": model.functions_certified,
         "diagonal": model.diagonal,
     }
 

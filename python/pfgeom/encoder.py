@@ -13,6 +13,9 @@ from .tasks import CancelToken, Progress, check_task
 
 _log = logging.getLogger("pfgeom")
 
+#: In the order of the native enumeration.
+EFFORTS = ("fast", "normal", "best")
+
 
 def compress(
     vertices: Any,
@@ -21,7 +24,7 @@ def compress(
     tolerance: float = 1e-3,
     relative: bool = True,
     metric: Literal["max", "rms"] = "max",
-    effort: Literal["normal"] = "normal",
+    effort: Literal["fast", "normal", "best"] = "normal",
     threads: int = 0,
     progress: Progress | None = None,
     cancel: CancelToken | None = None,
@@ -48,7 +51,8 @@ def compress(
     metric
         What the tolerance limits: the ``"max"`` or the ``"rms"`` deviation.
     effort
-        ``"normal"``, the only one so far.
+        How long to look for fewer bytes: ``"fast"``, ``"normal"`` or ``"best"``. What it changes is the number of
+        settings tried for set trees, and the points that these are fitted to; the promise is the same.
     threads
         0: all of the machine's. The result does not depend on it, to the last bit.
     progress
@@ -87,11 +91,13 @@ def compress(
         raise ValueError(f"tolerance must be positive, not {tolerance}")
     if metric not in ("max", "rms"):
         raise ValueError(f"metric must be 'max' or 'rms', not {metric!r}")
-    if effort != "normal":
-        raise ValueError(f"effort must be 'normal', not {effort!r}")
+    if effort not in EFFORTS:
+        raise ValueError(f"effort must be 'fast', 'normal' or 'best', not {effort!r}")
     check_task(threads, progress, cancel)
     mesh = as_mesh(vertices, faces)
-    core, report = _core.compress(*mesh, tolerance, relative, metric == "rms", threads, progress, cancel)
+    core, report = _core.compress(
+        *mesh, tolerance, relative, metric == "rms", EFFORTS.index(effort), threads, progress, cancel
+    )
     model = Model(core, report)
     _log_outcome(model, report)
     return model

@@ -197,7 +197,7 @@ class Model:
 
     @cached_property
     def objects(self) -> list[dict[str, Any]]:
-        """One dict an object: ``kind`` (solid, sheet, mesh), ``cavity_of``, ``instances``, counts."""
+        """One dict an object: ``kind`` (solid, sheet, mesh, tree), ``cavity_of``, ``instances``, counts."""
         return self._core.objects()
 
     @cached_property
@@ -233,6 +233,17 @@ class Model:
     def rms(self) -> float:
         """Root mean square of the deviation, the worse of both directions, in the mesh's units."""
         return float(self._promise["rms"])
+
+    @property
+    def bound_functions(self) -> float:
+        """Largest two-sided deviation between the input and the functions themselves, whatever mesh is made of
+        them, in the mesh's units; 0: not known."""
+        return float(self._promise["bound_functions"])
+
+    @property
+    def functions_certified(self) -> bool:
+        """Whether `bound_functions` is proved."""
+        return bool(self._promise["functions_certified"])
 
     @property
     def report(self) -> dict[str, Any] | None:

@@ -66,6 +66,7 @@ def info(f: dict[str, Any]) -> list[Row]:
             f"{len(f['objects']):,}",
             ", ".join(f"{kind}: {count:,}" for kind, count in kinds.items()),
         ),
+        *_quadrics(f),
         *_promise(f),
         ("diagonal", f"{f['diagonal']:.6g}", "of the input's bounding box"),
         ("bounds", "", f"{_point(low)} to {_point(high)}"),
@@ -95,6 +96,15 @@ def _functions(f: dict[str, Any]) -> Row:
     return ("functions", str(count), "surface + separators + perturbations" + patches)
 
 
+def _quadrics(f: dict[str, Any]) -> list[Row]:
+    """Of the set trees, by family: the most frequent first."""
+    families: Counter[str] = Counter()
+    for entry in f["objects"]:
+        families.update(entry.get("families", {}))
+    names = ", ".join(f"{name}: {count:,}" for name, count in families.most_common())
+    return [("quadrics", f"{families.total():,}", names)] if families else []
+
+
 def _promise(f: dict[str, Any]) -> list[Row]:
     proof = "certified" if f["certified"] else "sampled"
     diagonal = f["diagonal"]
@@ -103,6 +113,9 @@ def _promise(f: dict[str, Any]) -> list[Row]:
         ("max", f["bound_mesh"], proof),
         ("rms", f["rms"], "two-sided, the worse direction"),
     ]
+    if f["bound_functions"] > 0:
+        proof = "certified" if f["functions_certified"] else "sampled"
+        rows.append(("max of functions", f["bound_functions"], f"{proof}, whatever mesh is made of them"))
     return [(name, f"{value:.4e}", f"{value / diagonal:.3e} of the diagonal, {note}") for name, value, note in rows]
 
 

@@ -51,7 +51,13 @@ def sphere_model() -> pfgeom.Model:
 @pytest.fixture(scope="session")
 def torus_model() -> pfgeom.Model:
     """Has a hierarchy of perturbations."""
-    return pfgeom.compress(*shapes.torus(), tolerance=5e-3)
+    return pfgeom.compress(*shapes.torus(), tolerance=2e-3, metric="rms")
+
+
+@pytest.fixture(scope="session")
+def gear_model() -> pfgeom.Model:
+    """Is a set tree, with a proof of the functions themselves."""
+    return pfgeom.compress(*shapes.gear(), tolerance=1e-2)
 
 
 @pytest.fixture(scope="session")

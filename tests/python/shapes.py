@@ -75,6 +75,19 @@ def hollow_sphere():
     return np.concatenate([vertices, 0.5 * vertices]), np.concatenate([faces, inner])
 
 
+def gear(teeth: int = 10):
+    """A prism over a circle with teeth: flat sides, creases, and corners that turn both ways."""
+    n = 4 * teeth
+    a = np.linspace(0, 2 * np.pi, n, endpoint=False)
+    radius = np.where(np.arange(n) % 4 < 2, 1, 0.6)
+    rim = np.stack([radius * np.cos(a), radius * np.sin(a), np.full(n, 0.5)], axis=1)
+    vertices = np.concatenate([rim, rim * [1, 1, -1], [[0, 0, 0.5], [0, 0, -0.5]]])
+    j = np.arange(n)
+    k, top, bottom = (j + 1) % n, np.full(n, 2 * n), np.full(n, 2 * n + 1)
+    faces = [(j, n + j, n + k), (j, n + k, k), (top, j, k), (bottom, n + k, n + j)]
+    return vertices, np.concatenate([np.stack(f, axis=1) for f in faces])
+
+
 def soup(count: int = 30):
     """Triangles that have nothing to do with each other."""
     vertices = np.random.default_rng(7).uniform(-1, 1, (3 * count, 3))

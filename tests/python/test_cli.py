@@ -14,6 +14,7 @@ import measure
 import pfgeom
 import pytest
 import shapes
+from pfgeom import tables
 
 TORUS = shapes.torus(32, 16)
 
@@ -78,6 +79,26 @@ def test_tables(command_line, torus_file):
         assert len(done.stdout.splitlines()) >= 5
 
 
+def test_info_lists_the_quadrics_of_set_trees(sphere_model):
+    info = {"input": "sphere.pfg", **sphere_model.info()}
+    for families in ({"plane": 2, "sphere": 1}, {"plane": 3}):
+        info["objects"].append({"kind": "tree", "families": families})
+    rows = {label: (figure, remark) for label, figure, remark in tables.info(info)}
+    assert rows["quadrics"] == ("6", "plane: 5, sphere: 1")
+
+
+def test_info_says_what_is_proved_of_the_functions(command_line, tmp_path, gear_model, sphere_model):
+    gear_model.save(tmp_path / "gear.pfg")
+    info = figures(command_line("info", "gear.pfg", "--json"))
+    assert info["bound_functions"] == gear_model.bound_functions
+    assert info["functions_certified"] is True
+    row = next(line for line in command_line("info", "gear.pfg").stdout.splitlines() if "max of functions" in line)
+    assert f"{gear_model.bound_functions:.4e}" in row
+    assert "certified" in row
+    sphere_model.save(tmp_path / "sphere.pfg")
+    assert "max of functions" not in command_line("info", "sphere.pfg").stdout
+
+
 def test_quiet(command_line, torus_pfg):
     done = command_line("decompress", torus_pfg, "a.stl", "--quiet")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -92,6 +113,13 @@ def test_formats(command_line, torus_pfg, tmp_path, suffix):
 def test_options_reach_the_library(command_line, torus_file, torus_pfg):
     rms = figures(command_line("compress", torus_file, "a.pfg", "--metric", "rms", "--tolerance", "1e-2", "--json"))
     assert rms["metric"] == "rms"
+    pfgeom.write_mesh(torus_file.with_name("gear.obj"), shapes.gear())
+    efforts = [
+        figures(command_line("compress", "gear.obj", "g.pfg", "--tolerance", "1e-2", "--effort", e, "--json"))
+        for e in ("fast", "best")
+    ]
+    assert efforts[0]["file_bytes"] > efforts[1]["file_bytes"]
+    assert all(made["functions_certified"] for made in efforts)
     length = figures(command_line("compress", torus_file, "b.pfg", "--absolute", "--tolerance", "0.04", "--json"))
     assert length["tolerance"] == pytest.approx(0.04, rel=0.02)
     counts = [
@@ -116,6 +144,7 @@ WRONG_USAGE = [
     ("compress", "a.obj", "a.pfg", "--tolerance", "nan"),
     ("compress", "a.obj", "a.pfg", "--tolerance", "small"),
     ("compress", "a.obj", "a.pfg", "--metric", "mean"),
+    ("compress", "a.obj", "a.pfg", "--effort", "heroic"),
     ("compress", "a.obj", "a.pfg", "--threads", "-1"),
     ("decompress", "a.pfg", "a.xyz"),
     ("decompress", "a.pfg", "a.ply", "--tolerance", "1e-3", "--resolution", "64"),

@@ -50,6 +50,16 @@ def test_absolute_tolerance_is_a_length():
     assert absolute.diagonal == pytest.approx(diagonal, rel=STORED)
 
 
+def test_effort_saves_bytes_and_keeps_the_promise(gear_model):
+    mesh = shapes.gear()
+    fast, best = (pfgeom.compress(*mesh, tolerance=1e-2, effort=effort) for effort in ("fast", "best"))
+    assert pfgeom.compress(*mesh, tolerance=1e-2, effort="normal") == gear_model
+    assert fast.nbytes > gear_model.nbytes
+    assert fast.nbytes > best.nbytes
+    for model in (fast, best):
+        assert measure.two_sided(mesh, model.to_mesh())[0] <= model.bound_mesh <= model.tolerance
+
+
 def test_finer_tolerance_is_closer():
     mesh = shapes.open_disk()
     errors = [pfgeom.compress(*mesh, tolerance=t).bound_mesh for t in (2e-2, 2e-3, 5e-4)]

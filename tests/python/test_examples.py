@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import subprocess
 import sys
 
 import measure
+import numpy as np
 import pfgeom
 import pytest
 import shapes
@@ -18,6 +20,13 @@ def run(root):
         return subprocess.run(command, capture_output=True, text=True, timeout=300, check=True).stdout
 
     return example
+
+
+@pytest.fixture
+def car(root, monkeypatch):
+    """The module examples/car.py."""
+    monkeypatch.syspath_prepend(root / "examples")
+    return importlib.import_module("car")
 
 
 def test_quickstart(run):
@@ -42,3 +51,56 @@ def test_demo(run, tmp_path):
     for name in ("example-0.01", "example-0.001", "mine-0.01", "mine-0.001"):
         rebuilt = pfgeom.read_mesh(tmp_path / "out" / f"{name}.ply")
         assert len(rebuilt.faces) == len(pfgeom.load(tmp_path / "out" / f"{name}.pfg").to_mesh().faces)
+
+
+def test_car_has_83_ellipsoids_and_about_136_000_triangles(car):
+    parts = car.car_parts()
+    mesh = car.make_car(parts)
+    assert len(parts) == 83
+    assert abs(len(mesh.faces) - 136_000) < 1000
+    assert 3e-4 * measure.diagonal(mesh.vertices) >= car.CHORD
+
+
+def test_car_is_separate_shells_of_ellipsoids(car):
+    parts = car.car_parts()[10:15]
+    vertices, faces = car.make_car(parts, chord=0.01)
+    assert measure.is_closed_manifold(faces)
+    assert len(vertices) - len(faces) / 2 == 2 * len(parts)
+    volumes = [4 / 3 * np.pi * np.prod(part.axes) for part in parts]
+    assert measure.signed_volume(vertices, faces) == pytest.approx(sum(volumes), rel=0.15)
+    first = 0
+    for part in parts:
+        shell = car.make_shell(part, 0.01)
+        own = vertices[first : first + len(shell.vertices)]
+        unit = (own - part.centre) @ car.turn(part) / part.axes
+        assert np.linalg.norm(unit, axis=1) == pytest.approx(1)
+        inner = shell.vertices[shell.faces].mean(axis=1)
+        within = 1 - np.linalg.norm((inner - part.centre) @ car.turn(part) / part.axes, axis=1)
+        assert (within * min(part.axes)).max() <= 0.01
+        first += len(own)
+
+
+def test_car_demo(run, tmp_path):
+    shown = run("car.py", "--parts", 2, "--out", tmp_path)
+    _, line = (text.split() for text in shown.splitlines()[:2])
+    assert line[0] == "car"
+    model = pfgeom.load(tmp_path / "car-0.001.pfg")
+    assert (model.functions.surface, model.functions.mesh_part_faces) == (2, 0)
+    assert len(pfgeom.read_mesh(tmp_path / "car-0.001.ply").faces) == len(model.to_mesh().faces)
+
+
+def test_car_union(car):
+    pytest.importorskip("manifold3d")
+    parts = list(car.wheel(0.0, 0.5))[1:3]  # rim and hub
+    shells = [car.make_car([part], chord=0.003) for part in parts]
+    vertices, faces = car.unite(shells)
+    assert measure.is_closed_manifold(faces)
+    assert len(vertices) - len(faces) / 2 == 2  # one shell
+    apart = [measure.signed_volume(*shell) for shell in shells]
+    assert max(apart) < measure.signed_volume(vertices, faces) < sum(apart)
+
+
+def test_car_union_says_what_it_takes(car, monkeypatch):
+    monkeypatch.setitem(sys.modules, "manifold3d", None)
+    with pytest.raises(ValueError, match=r"pip install -r examples/requirements\.txt"):
+        car.unite([])

@@ -11,6 +11,7 @@ import measure
 import numpy as np
 import pfgeom
 import pytest
+import shapes
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -222,10 +223,23 @@ def test_info(torus_model):
     info = torus_model.info()
     assert json.loads(json.dumps(info)) == info
     assert info["bytes"] == info["sizes"]["total"] == torus_model.nbytes
-    assert info["metric"] == torus_model.metric == "max"
+    assert info["metric"] == torus_model.metric == "rms"
     assert info["functions"] == torus_model.functions._asdict()
-    assert 0 < torus_model.rms <= torus_model.bound_mesh <= torus_model.tolerance
-    assert {entry["kind"] for entry in torus_model.objects} <= {"solid", "sheet", "mesh"}
+    assert 0 < torus_model.rms <= torus_model.tolerance
+    assert {entry["kind"] for entry in torus_model.objects} <= {"solid", "sheet", "mesh", "tree"}
+
+
+def test_what_is_proved_of_the_functions(gear_model, sphere_model, soup_model):
+    assert gear_model.objects[0]["kind"] == "tree"
+    assert gear_model.functions_certified
+    assert 0 < gear_model.bound_functions <= gear_model.tolerance
+    chords = 1e-4
+    found = pfgeom.compare(shapes.gear(), gear_model.to_mesh(chords)).max
+    assert found <= gear_model.bound_functions + chords * gear_model.diagonal
+    info = pfgeom.from_bytes(gear_model.to_bytes()).info()
+    assert (info["bound_functions"], info["functions_certified"]) == (gear_model.bound_functions, True)
+    for model in (sphere_model, soup_model):
+        assert (model.bound_functions, model.functions_certified) == (0, False)
 
 
 def test_bounds_hold_the_surface(torus_model):
