@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kPoints = 9, kTerms = 10;
 constexpr double kMostExtent = 0x1p120, kLeastExtent = 0x1p-120;  // as a Frame's
 
-// Of sets that leave more than one quadric (3000 of each kind), rounding leaves pivots below 2e-15 (1 +
+// Of sets that leave more than one quadric (1,250 of each kind), rounding leaves pivots below 2e-15 (1 +
 // distance from the origin / extent); the smallest of 20,000 sets in a cube is 2e-3, of 3,000 sets on a
 // sphere's cap of 3 degrees 9e-9.
 constexpr double kLeastPivot = 1e-12;
