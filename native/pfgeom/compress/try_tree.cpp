@@ -17,10 +17,11 @@
 namespace pfgeom {
 namespace {
 
-// Shares of the tolerance: what the tree is certified to, and the chords of the default mesh. Nothing is lost
-// by their sum above one: chords are longest where the quadrics are not at their worst, and the mesh is
-// measured.
-constexpr double kTreeShare = 0.97, kChordShare = 0.06;
+// Of the tolerance, what the tree is certified to. The chords of the default mesh may take more than the
+// rest: they are longest where the quadrics are not at their worst, and the mesh is measured. Shorter ones
+// come next.
+constexpr double kTreeShare = 0.97;
+constexpr double kChordShares[] = {0.25, 0.1};
 constexpr int kMostRounds = 6, kMostProofs = 3;
 // More cells than these left open by a certificate: the tree is far from what it should be.
 constexpr std::int64_t kMostUnresolved = 100'000;
@@ -58,11 +59,14 @@ class TreeSearch {
         for (int proof = 0; proof < kMostProofs; ++proof) {
             std::optional<Certified> found = smallest(share * tolerance_);
             if (!found) return {};
-            Outcome outcome = prove_tree(*std::move(found));
-            if (outcome.holds || outcome.mesh.faces.empty()) {
-                return outcome.holds ? std::optional(std::move(outcome)) : std::nullopt;
+            double reached = 0;
+            for (const double chord : kChordShares) {
+                Outcome outcome = prove_tree(*found, chord * goal_.tolerance);
+                if (outcome.holds) return outcome;
+                if (outcome.mesh.faces.empty()) return {};
+                reached = outcome.deviation.max() / goal_.tolerance;
             }
-            share *= std::clamp(0.99 * goal_.tolerance / outcome.deviation.max(), 0.7, 0.97);
+            share *= std::clamp(0.99 / reached, 0.7, 0.97);
         }
         return {};
     }
@@ -152,14 +156,14 @@ class TreeSearch {
         return points;
     }
 
-    Outcome prove_tree(Certified found) const {
+    Outcome prove_tree(Certified found, double chord) const {
         Outcome outcome;
         outcome.candidate = "tree";
         outcome.bound_functions = found.bound * frame_.half();
         found.tree.complement = goal_.inward;
         outcome.object.frame = frame_;
         outcome.object.shape = std::move(found.tree);
-        outcome.object.mesh_code = mesh_code_for(goal_, kChordShare * goal_.tolerance);
+        outcome.object.mesh_code = mesh_code_for(goal_, chord);
         prove(goal_, outcome, task_);
         return outcome;
     }
