@@ -26,7 +26,7 @@ constexpr int kMostRounds = 6, kMostProofs = 3;
 // More cells than these left open by a certificate: the tree is far from what it should be.
 constexpr std::int64_t kMostUnresolved = 100'000;
 // A region costs at least so many bytes.
-constexpr std::size_t kBytesOfRegion = 4;
+constexpr std::size_t kBytesOfRegion = 6;
 // Cells at the border of the tube while there is something to mend: finer ones cost time and find no more.
 constexpr double kRoughest = 1.0 / 16;
 // Of the tolerance, where the final certificate looks: what its cells leave open then stays below one.

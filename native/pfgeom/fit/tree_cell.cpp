@@ -42,19 +42,19 @@ TreeCell::TreeCell(const SampleTable& samples, std::span<const std::int32_t> mem
     }
 }
 
-void TreeCell::look_at(std::size_t i, std::size_t slot) {
-    const TreeSample& s = samples_[i];
+void TreeCell::look_at(std::size_t sample, std::size_t slot) {
+    const TreeSample& s = samples_[sample];
     const std::size_t label = s.inside ? 1 : 0, words = samples_.words();
     if (count_[slot][label] >= options_.cap) return;
     ++count_[slot][label];
     box_[slot][label].grow(s.point);
     bounds_.grow(s.point);
-    const std::uint64_t* signs = samples_.signs(i);
+    const std::uint64_t* signs = samples_.signs(sample);
     for (std::size_t w = 0; w < words; ++w) {
         any_high_[(2 * slot + label) * words + w] |= signs[w];
         any_low_[(2 * slot + label) * words + w] |= ~signs[w];
     }
-    seen_.push_back(static_cast<std::int32_t>(i));
+    seen_.push_back(static_cast<std::int32_t>(sample));
 }
 
 double TreeCell::left_to_do(const Rest& rest) const {

@@ -93,7 +93,7 @@ double head_bits(FamilyKind kind) {
 // The search within one family.
 class FamilySearch {
   public:
-    FamilySearch(std::uint8_t family, const QuadricSystem& region, double normal_weight);
+    FamilySearch(std::uint8_t index, const QuadricSystem& region, double normal_weight);
 
     bool serves(const std::vector<CheckPoint>& points) const;
     void run(std::vector<CheckPoint>& points, int resolution, int scales,

@@ -89,8 +89,10 @@ std::vector<TreeSample> sample_sides(const TriangleMesh& mesh, const SignedDista
     Sampler sampler(mesh, distance, box, patches, options, task);
     std::uint64_t seed = options.seed;
     std::size_t count = options.count;
-    for (double d = options.tube; d < kFarthest * box.diagonal(); d *= kShellRatio) {
-        sampler.add_shell(d, count, seed++);
+    double shell = options.tube;
+    while (shell < kFarthest * box.diagonal()) {
+        sampler.add_shell(shell, count, seed++);
+        shell *= kShellRatio;
         count = std::max(count / 2, std::min(options.count, kLeastOfShell));
     }
     sampler.add_faces(options.tube);
