@@ -31,13 +31,13 @@ void Reservoir::add(const Reservoir& other) {
 
 void TreeBoundFindings::add_counter_example(const LabelledPoint& point, std::int32_t leaf) {
     ++counts.wrong;
-    const auto seed = static_cast<std::uint64_t>(leaf + 1);
+    const auto seed = static_cast<std::uint64_t>(leaf) + 1;
     counter_examples.try_emplace(leaf, per_leaf, seed).first->second.add(point);
 }
 
 void TreeBoundFindings::merge(const TreeBoundFindings& other) {
     for (const auto& [leaf, points] : other.counter_examples) {
-        const auto seed = static_cast<std::uint64_t>(leaf + 1);
+        const auto seed = static_cast<std::uint64_t>(leaf) + 1;
         counter_examples.try_emplace(leaf, per_leaf, seed).first->second.add(points);
     }
     suspects.insert(other.suspects.begin(), other.suspects.end());
