@@ -31,6 +31,8 @@ constexpr std::size_t kBytesOfRegion = 6;
 constexpr double kRoughest = 1.0 / 16;
 // Of the tolerance, where the final certificate looks: what its cells leave open then stays below one.
 constexpr double kProofShare = 0.985;
+// Labels that a certificate gives besides: more make mending slower, not better.
+constexpr std::size_t kLabels = 10'000;
 // Points beside a counter-example, and how far away, in tolerances.
 constexpr std::size_t kBeside = 3, kMostJittered = 10'000;
 constexpr double kJitter = 0.7;
@@ -122,13 +124,16 @@ class TreeSearch {
         for (int round = 0; round < kMostRounds; ++round) {
             TreeBoundOptions rough;
             rough.finest = kRoughest;
+            rough.labels = kLabels;
             const TreeBound bound = bound_tree(fit.tree, mesh_, bvh_, tolerance, rough, task_);
             if (!bound.sides_defined || bound.counts.unresolved > kMostUnresolved) return {};
             double worst = 0;
             for (const LabelledPoint& p : bound.counter_examples) worst = std::max(worst, p.distance);
             const double proof = kProofShare * tolerance_;
             if (worst <= proof && bound.missed.empty()) {
-                const TreeBound exact = bound_tree(fit.tree, mesh_, bvh_, proof, {}, task_);
+                TreeBoundOptions fine;
+                fine.labels = 0;
+                const TreeBound exact = bound_tree(fit.tree, mesh_, bvh_, proof, fine, task_);
                 if (exact.holds(tolerance_)) return exact.proved;
             }
             if (bound.counter_examples.empty() && bound.missed.empty()) return {};
