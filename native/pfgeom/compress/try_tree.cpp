@@ -4,6 +4,7 @@
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/fit/set_tree.h"
+#include "pfgeom/fit/target.h"
 #include "pfgeom/mesh/signed_distance.h"
 #include "pfgeom/report/tree_bound.h"
 
@@ -51,7 +52,7 @@ class TreeSearch {
           most_bytes_(most_bytes),
           task_(task),
           frame_(Frame::around(goal.bvh.bounds())),
-          mesh_(in_cube(goal, frame_)),
+          mesh_(outwards_in_cube(goal, frame_)),
           bvh_(mesh_),
           distance_(mesh_, bvh_),
           tolerance_(goal.tolerance / frame_.half()) {}
@@ -79,9 +80,8 @@ class TreeSearch {
         double bound = 0;  // in the cube's units
     };
 
-    static TriangleMesh in_cube(const Goal& goal, const Frame& frame) {
-        TriangleMesh mesh = goal.mesh;
-        for (Vec3& v : mesh.vertices) v = frame.to_local(v);
+    static TriangleMesh outwards_in_cube(const Goal& goal, const Frame& frame) {
+        TriangleMesh mesh = in_cube(goal.mesh, frame);
         if (goal.inward) {
             for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
         }

@@ -137,7 +137,6 @@ void build(TreeFit& fit, const TreeFitOptions& options, const Task& task) {
     const auto best = static_cast<std::size_t>(std::ranges::min_element(trees, {}, price) - trees.begin());
     fit.build = finalists[best];
     fit.raw = std::move(trees[best]);
-    fit.wrong = wrong_samples(fit.raw, SampleTable(fit.samples, fit.quadrics, task));
     write_tree(fit);
 }
 
@@ -177,12 +176,7 @@ void repair_set_tree(TreeFit& fit, const Bvh& bvh, std::span<const KnownSide> po
     }
     const SampleTable table(fit.samples, fit.quadrics, task);
     fit.raw = repair_tree(fit.raw, table, fit.quadrics, box, fit.build, task);
-    fit.wrong = wrong_samples(fit.raw, table);
     write_tree(fit);
-}
-
-void rebuild_set_tree(TreeFit& fit, const TreeFitOptions& options, const Task& task) {
-    build(fit, options, task);
 }
 
 }  // namespace pfgeom

@@ -29,7 +29,6 @@ struct TreeFit {
     SetTree tree;
     double bits = 0;  ///< estimate of the tree's code
     std::size_t regions = 0;
-    std::size_t wrong = 0;  ///< samples that the tree gets wrong; 0 unless a leaf could not be split
 
     RawTree raw;
     std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not
@@ -51,8 +50,5 @@ TreeFit fit_set_tree(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOpti
 
 /// Adds points outside the tube; grows the leaves that they contradict.
 void repair_set_tree(TreeFit& fit, const Bvh& bvh, std::span<const KnownSide> points, const Task& task = {});
-
-/// Builds the tree again from all points that are known by now.
-void rebuild_set_tree(TreeFit& fit, const TreeFitOptions& options, const Task& task = {});
 
 }  // namespace pfgeom

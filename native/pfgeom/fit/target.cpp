@@ -7,12 +7,6 @@
 namespace pfgeom {
 namespace {
 
-TriangleMesh in_cube(const TriangleMesh& island, const Frame& frame) {
-    TriangleMesh local = island;
-    for (Vec3& v : local.vertices) v = frame.to_local(v);
-    return local;
-}
-
 double signed_volume(const TriangleMesh& mesh) {
     double six = 0;
     for (const Triangle& t : mesh.faces) {
@@ -34,6 +28,11 @@ std::uint32_t curve_position(const Vec3& p) {
 }
 
 }  // namespace
+
+TriangleMesh in_cube(TriangleMesh mesh, const Frame& frame) {
+    for (Vec3& v : mesh.vertices) v = frame.to_local(v);
+    return mesh;
+}
 
 FitTarget::FitTarget(const TriangleMesh& island, std::size_t samples)
     : frame(Frame::around(pfgeom::bounds(island))), bvh(in_cube(island, frame)) {

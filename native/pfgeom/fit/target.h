@@ -11,6 +11,9 @@
 
 namespace pfgeom {
 
+/// `mesh` in the frame's cube.
+TriangleMesh in_cube(TriangleMesh mesh, const Frame& frame);
+
 struct FitTarget {
     Frame frame;
     Vec3 half_extent;           ///< of the island's box, in the cube

@@ -68,22 +68,30 @@ std::vector<Candidate> candidates(const RegionSet& regions, std::size_t count, c
     return all;
 }
 
-void merge_neighbours(const TriangleMesh& mesh, RegionSet& regions, UnionFind& roots, const Task& task) {
-    const auto pairs = neighbours(mesh);
-    Queue queue({}, candidates(
-                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+// Takes candidates, cheapest first, until none is left; `take` may add others.
+template <class Take>
+void work_off(Queue& queue, const Task& task, const Take& take) {
     for (std::size_t step = 0; !queue.empty(); ++step) {
         if (step % 64 == 0) task.check();
         const Candidate next = queue.top();
         queue.pop();
+        take(next);
+    }
+}
+
+void merge_neighbours(const TriangleMesh& mesh, RegionSet& regions, UnionFind& roots, const Task& task) {
+    const auto pairs = neighbours(mesh);
+    Queue queue({}, candidates(
+                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+    work_off(queue, task, [&](const Candidate& next) {
         const std::int32_t a = roots.find(next.a), b = roots.find(next.b);
-        if (a == b) continue;
+        if (a == b) return;
         if (regions.size(a) + regions.size(b) != next.size) {
             if (const auto now = candidate(regions, a, b)) queue.push(*now);
         } else if (regions.merge(a, b)) {
             roots.join(a, b);
         }
-    }
+    });
 }
 
 // Regions that need not touch: the largest against all.
@@ -97,19 +105,16 @@ void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_
     }
     Queue queue({}, candidates(
                         regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
-    for (std::size_t step = 0; !queue.empty(); ++step) {
-        if (step % 64 == 0) task.check();
-        const Candidate next = queue.top();
-        queue.pop();
-        if (regions.size(next.a) == 0 || regions.size(next.b) == 0) continue;
+    work_off(queue, task, [&](const Candidate& next) {
+        if (regions.size(next.a) == 0 || regions.size(next.b) == 0) return;
         if (regions.size(next.a) + regions.size(next.b) != next.size || !regions.merge(next.a, next.b, true))
-            continue;
+            return;
         std::erase(alive, next.b);
         const auto with_next = [&](std::size_t i) { return std::pair(next.a, alive[i]); };
         for (const Candidate& c : candidates(regions, alive.size(), with_next, quiet(task, 1))) {
             if (c.a != c.b) queue.push(c);
         }
-    }
+    });
 }
 
 }  // namespace
