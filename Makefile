@@ -134,14 +134,25 @@ check-coverage: check-tools
 	build/coverage/tests/test_codec --gtest_brief=1
 	gcovr --root . --filter native/pfgeom/codec/ --fail-under-line 90 build/coverage/CMakeFiles/pfgeom_codec.dir
 
-wheel: $(stamp)/installed $(stamp)/venv-check
+# Repaired: it holds every library that not every Linux has.
+$(stamp)/wheel: $(stamp)/installed $(stamp)/venv-wheel
 	rm -rf build/wheel && mkdir -p build/wheel dist
 	$(venv)/python -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir build/wheel \
 	    --config-settings=build-dir=$(release) .
 	$(venv)/auditwheel repair --wheel-dir dist build/wheel/*.whl
-	python3 -m venv build/wheel/venv
+	@touch $@
+
+wheel: $(stamp)/wheel
+	rm -rf build/wheel/venv && python3 -m venv build/wheel/venv
 	build/wheel/venv/bin/python -m pip install --quiet "$$(ls -t dist/*.whl | head -1)"
 	cd build/wheel && venv/bin/python -I ../../tests/install/wheel.py
+
+addon_sources := $(shell find blender_addon -type f -not -path '*/__pycache__/*')
+$(stamp)/blender: $(stamp)/wheel $(addon_sources)
+	$(venv)/python blender_addon/build.py dist/pfgeom-*.whl --out dist
+	@touch $@
+
+blender: $(stamp)/blender
 
 bench: $(stamp)/apt-check $(stamp)/venv-build
 	cmake --preset release -DPFGEOM_BUILD_BENCHMARKS=ON >/dev/null

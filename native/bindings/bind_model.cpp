@@ -7,10 +7,13 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/compress.h"
+#include "pfgeom/function/check.h"
 
 #include <pybind11/stl.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -79,6 +82,25 @@ py::array contains_at(const ModelPointer& handle, const Points& points, int thre
     return py::array_t<std::uint8_t>(static_cast<py::ssize_t>(inside.size()), inside.data());
 }
 
+/// The same functions with other names and another place in the world, as a file of their own.
+ModelPointer placed(const ModelPointer& handle, std::vector<std::string> names,
+                    std::vector<double> world_transform) {
+    return Job().run([=](const Task&) {
+        Model model = handle->model();
+        model.names = names;
+        model.world_transform = world_transform;
+        if (const std::string flaw = find_flaw(model); !flaw.empty()) throw InvalidInput(flaw);
+        std::vector<std::uint8_t> bytes = encode(model);
+        return std::make_shared<ModelHandle>(std::move(model), std::move(bytes));
+    });
+}
+
+py::list names_of(const ModelHandle& handle) {
+    py::list names;
+    for (const std::string& name : handle.model().names) names.append(py::str(name));
+    return names;
+}
+
 py::array bounds_of(const ModelPointer& handle) {
     const Box box = Job().run([=](const Task&) { return handle->field().bounds(); });
     return array_from<double>(std::vector<Vec3>{box.lo, box.hi});
@@ -96,6 +118,9 @@ void bind_model(py::module_& m) {
         .def("gradients", &gradients_at, py::arg("points").noconvert(), py::arg("threads"))
         .def("contains", &contains_at, py::arg("points").noconvert(), py::arg("threads"))
         .def("bounds", &bounds_of)
+        .def("names", &names_of)
+        .def("world_transform", [](const ModelHandle& h) { return h.model().world_transform; })
+        .def("placed", &placed, py::arg("names"), py::arg("world_transform"))
         .def("functions", [](const ModelHandle& h) { return describe_functions(h.model()); })
         .def("objects", [](const ModelHandle& h) { return describe_objects(h.model()); })
         .def("promise", [](const ModelHandle& h) { return describe_promise(h.model()); })

@@ -14,5 +14,6 @@ void bind_function(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
 void bind_compress(pybind11::module_& m);
 void bind_report(pybind11::module_& m);
+void bind_distance(pybind11::module_& m);
 
 }  // namespace pfgeom::bindings

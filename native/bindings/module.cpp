@@ -11,4 +11,5 @@ PYBIND11_MODULE(_core, m) {
     bind_model(m);
     bind_compress(m);
     bind_report(m);
+    bind_distance(m);
 }

@@ -14,6 +14,7 @@ import logging
 
 from ._core import __version__
 from .deviation import Deviation, OneSided, compare
+from .distances import ClosestPoints, closest_points
 from .encoder import compress
 from .errors import Cancelled, FormatError, LimitError, PfgeomError
 from .meshes import Mesh, read_mesh, write_mesh
@@ -24,6 +25,7 @@ from .tasks import CancelToken, Progress
 __all__ = [
     "CancelToken",
     "Cancelled",
+    "ClosestPoints",
     "Deviation",
     "FormatError",
     "FunctionCount",
@@ -34,6 +36,7 @@ __all__ = [
     "PfgeomError",
     "Progress",
     "__version__",
+    "closest_points",
     "compare",
     "compress",
     "from_bytes",

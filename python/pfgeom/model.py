@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from .errors import FormatError
 from .meshes import Mesh, native_path
+from .normals import corner_normals
 from .tasks import CancelToken, Progress, check_task
 
 
@@ -187,6 +189,64 @@ class Model:
         box = self._core.bounds()
         box.flags.writeable = False
         return box
+
+    def corner_normals(self, mesh: Mesh, *, crease: float = 30.0, threads: int = 0) -> NDArray[np.float64]:
+        """Outward normals for the corners of a mesh of this model's surface, from the gradient of its functions.
+
+        Where a face and the gradient at one of its vertices disagree by more than ``crease`` degrees there is a
+        crease, or functions end there: the gradient just inside the face decides, then the face itself. Mesh parts
+        have no functions; theirs come from the faces around.
+
+        Parameters
+        ----------
+        mesh
+            As `to_mesh` gives it, at any resolution. Inwards-facing faces get inwards-facing normals.
+
+        Returns
+        -------
+        (m, 3, 3) float64
+            Unit normals by face and corner; zero where a face has no area.
+        """
+        check_task(threads)
+        return corner_normals(lambda points: self.gradient(points, threads=threads), self._has_gradient, mesh, crease)
+
+    @property
+    def _has_gradient(self) -> bool:
+        return any(entry["kind"] in ("solid", "tree") for entry in self.objects)
+
+    # --- a place in the world ----------------------------------------------------------------------------
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """None, one for the whole, or one for each of `objects`."""
+        return tuple(self._core.names())
+
+    @property
+    def world_transform(self) -> NDArray[np.float64] | None:
+        """(4, 4) affine matrix from the mesh's space to the world's, if the file has one. Nothing here applies it."""
+        values = self._core.world_transform()
+        return np.array(values).reshape(4, 4) if values else None
+
+    def placed(self, world_transform: ArrayLike | None = None, names: Iterable[str] = ()) -> Model:
+        """The same functions with this place in the world and these names; those that it had are dropped.
+
+        Parameters
+        ----------
+        world_transform
+            (4, 4) affine matrix, its last row 0 0 0 1; or None.
+        names
+            None, one for the whole, or one for each of `objects`; up to 255 bytes of UTF-8 each.
+
+        Raises
+        ------
+        ValueError
+            The matrix or the names are not valid.
+        """
+        matrix = [] if world_transform is None else np.asarray(world_transform, dtype=np.float64).tolist()
+        if matrix and np.shape(matrix) != (4, 4):
+            raise ValueError(f"world_transform must have shape (4, 4), not {np.shape(matrix)}")
+        names = [names] if isinstance(names, str) else list(names)
+        return Model(self._core.placed(names, [value for row in matrix for value in row]), self._report)
 
     # --- what is known about it --------------------------------------------------------------------------
 

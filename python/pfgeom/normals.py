@@ -1,0 +1,64 @@
+"""Normals of a model's mesh: smooth where its functions are, broken at creases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .meshes import Mesh
+
+_Vectors = NDArray[np.float64]
+
+#: How far from its vertex towards the middle of its face a corner on a crease asks for the gradient, as a share: far
+#: enough to be off the crease whatever the mesh's rounding, near enough to see the surface at that corner.
+_STEP_INTO_FACE = 0.25
+
+
+def corner_normals(
+    gradient: Callable[[_Vectors], _Vectors], has_gradient: bool, mesh: Mesh, crease: float
+) -> _Vectors:
+    """(m, 3, 3) normals by face and corner; see `pfgeom.Model.corner_normals`."""
+    vertices, faces = mesh
+    corners = vertices[faces]
+    area_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    face_normals = _unit(area_normals)
+    least = float(np.cos(np.radians(crease)))
+    normals = np.repeat(face_normals[:, None], 3, axis=1)
+    _take(normals, _unit(_around_vertices(len(vertices), faces, area_normals))[faces], face_normals, least)
+    if has_gradient:
+        towards = _unit(gradient(vertices))[faces]
+        agree = _take(normals, towards, face_normals, least)
+        at_crease = np.nonzero(~agree.all(axis=1))[0]
+        middles = corners[at_crease].mean(axis=1, keepdims=True)
+        inside = corners[at_crease] + _STEP_INTO_FACE * (middles - corners[at_crease])
+        beside = normals[at_crease]
+        found = _take(beside, _unit(gradient(inside.reshape(-1, 3))).reshape(-1, 3, 3), face_normals[at_crease], least)
+        normals[at_crease] = np.where((found & ~agree[at_crease])[..., None], beside, normals[at_crease])
+    return normals
+
+
+def _take(normals: _Vectors, candidates: _Vectors, face_normals: _Vectors, least: float) -> NDArray[np.bool_]:
+    """Put candidates, turned to the faces' side, where their cosine to the face's normal is at least this; say where."""
+    cosines = np.einsum("fci,fi->fc", candidates, face_normals)
+    agree: NDArray[np.bool_] = np.abs(cosines) >= least
+    normals[agree] = (candidates * np.sign(cosines)[..., None])[agree]
+    return agree
+
+
+def _around_vertices(count: int, faces: NDArray[np.int32], area_normals: _Vectors) -> _Vectors:
+    """Sums of the area normals of the faces round each vertex."""
+    sums = np.empty((count, 3))
+    weights = np.repeat(area_normals, 3, axis=0)
+    for axis in range(3):
+        sums[:, axis] = np.bincount(faces.reshape(-1), weights[:, axis], minlength=count)
+    return sums
+
+
+def _unit(vectors: _Vectors) -> _Vectors:
+    """Of length one; zero for those without a direction."""
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    usable = np.isfinite(lengths) & (lengths > 0)
+    result: _Vectors = np.where(usable, vectors / np.where(usable, lengths, 1.0), 0.0)
+    return result
