@@ -28,12 +28,13 @@ test_packages := libgtest-dev libopenmesh-dev
 check_packages := ccache clang clang-format clang-tidy llvm libclang-rt-14-dev \
     g++-aarch64-linux-gnu qemu-user libbenchmark-dev
 
-.PHONY: help demo test check wheel bench format clean
+.PHONY: help demo test check wheel blender bench format clean
 help:
 	@echo 'make demo [MESH=path]  set up, build, compress an example mesh (or yours), print a table, write the result'
-	@echo 'make test              set up, build, run the native and the Python tests'
+	@echo 'make test              set up, build, run the native, the Python and the Blender tests'
 	@echo 'make check             for developers: warnings, formats, linters, sanitizers, fuzzing, determinism, coverage'
 	@echo 'make wheel             a wheel in dist/, tried in an empty environment'
+	@echo 'make blender           the Blender add-on in dist/, a zip for 3.4 and later'
 	@echo 'make bench             benchmarks'
 	@echo 'make format            clang-format and ruff, in place'
 	@echo 'make clean             remove what was built'
@@ -72,9 +73,19 @@ native-tests: $(stamp)/installed $(stamp)/apt-test
 	cmake -S . -B $(release) -DPFGEOM_BUILD_TESTS=ON >/dev/null
 	.ci/step 'build, release' cmake --build $(release) --parallel $(jobs)
 
-test: native-tests $(stamp)/venv-test
+test: native-tests $(stamp)/venv-test $(stamp)/blender
+	.ci/blender start
 	.ci/step 'native tests' ctest --test-dir $(release) --parallel $(jobs) --output-on-failure
 	.ci/step 'Python and style tests' $(venv)/python -m pytest -q
+	.ci/step 'getting Blender' .ci/blender wait
+	.ci/step 'Blender tests' $(venv)/python -m pytest -q tests/blender
+
+# Alone, with nothing else.
+.PHONY: blender-tests
+blender-tests: $(stamp)/venv-test $(stamp)/blender
+	.ci/blender start
+	.ci/blender wait
+	$(venv)/python -m pytest -q tests/blender
 
 # --- for developers -------------------------------------------------------------------------------------------
 

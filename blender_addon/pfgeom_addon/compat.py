@@ -52,6 +52,15 @@ def set_corner_normals(mesh: bpy.types.Mesh, normals: Any) -> None:
     mesh.normals_split_custom_set(normals)
 
 
+def smooth_by_angle(mesh: bpy.types.Mesh, angle: float) -> None:
+    """Smooth faces look smooth but for edges sharper than this, in radians."""
+    if _NO_AUTO_SMOOTH:
+        mesh.set_sharp_from_angle(angle=angle)
+    else:
+        mesh.use_auto_smooth = True
+        mesh.auto_smooth_angle = angle
+
+
 def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
     """(3 m, 3) normals as they are shown."""
     values = np.empty(3 * len(mesh.loops), np.float32)

@@ -15,8 +15,8 @@ from .tolerance import Tolerance
 
 Progress = Callable[[float, str], None]
 
-#: Cells along the longest side of a preview: some thousand triangles, a rebuild in well under a second.
-PREVIEW_CELLS = 24
+#: Cells along the longest side of a preview: a thousand triangles or two, some 20 kB in a .blend.
+PREVIEW_CELLS = 16
 #: Bytes of a vertex, and of a face, as raw numbers: three floats, three indices.
 _RAW = 12
 
@@ -40,7 +40,7 @@ class Surface:
 
 @dataclass(frozen=True)
 class Rebuilt:
-    """A surface made of functions. `normals`: (3 m, 3), one a corner, or None where all faces are flat."""
+    """A surface made of functions. `normals`: (3 m, 3), one a corner, or None where the faces are to decide."""
 
     surface: Surface
     normals: NDArray[np.float32] | None
@@ -61,6 +61,10 @@ class Detail:
 
     cells: int | None = None
     tolerance: float | None = None
+    normals: bool = True  # by the gradient: they take more room than all the rest
+
+
+PREVIEW = Detail(cells=PREVIEW_CELLS, normals=False)
 
 
 @dataclass(frozen=True)
@@ -94,7 +98,7 @@ def rebuild(model: Any, detail: Detail, labels: Surface | None, progress: Progre
     smooth, materials = _labels(mesh, labels, cancel)
     progress(0.8, "shading")
     normals = None
-    if smooth.any():
+    if detail.normals and smooth.any():
         normals = model.corner_normals(mesh).reshape(-1, 3).astype(np.float32)
     surface = Surface(mesh.vertices.astype(np.float32), mesh.faces, smooth, materials)
     progress(1.0, "shading")

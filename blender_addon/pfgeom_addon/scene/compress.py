@@ -99,7 +99,7 @@ def finish(done: Plan, job: Job) -> list[str]:
 
 def _work(group: Group, options: Options):
     settings = shapes.Settings(_tolerance(group, options), options.metric, options.effort)
-    detail = {"REBUILT": shapes.Detail(), "PREVIEW": shapes.Detail(cells=shapes.PREVIEW_CELLS)}.get(options.display)
+    detail = {"REBUILT": shapes.Detail(), "PREVIEW": shapes.PREVIEW}.get(options.display)
     return lambda progress, cancel: shapes.compress(group.surface, settings, detail, progress, cancel)
 
 

@@ -26,8 +26,7 @@ class Options:
 
     @property
     def detail(self) -> shapes.Detail:
-        cells = shapes.PREVIEW_CELLS if self.show == "PREVIEW" else self.cells
-        return shapes.Detail(cells, None if cells else self.tolerance)
+        return shapes.PREVIEW if self.show == "PREVIEW" else shapes.Detail(self.cells, self.tolerance)
 
 
 @dataclass

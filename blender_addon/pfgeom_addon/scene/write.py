@@ -11,6 +11,9 @@ from . import store
 
 ORIGINALS = "PF Geometry Originals"
 
+#: Angle between faces, in radians, above which a mesh without normals of its own has a sharp edge: Blender's default.
+_CREASE = 0.5236
+
 
 def fill(mesh: bpy.types.Mesh, rebuilt: Rebuilt | None) -> None:
     """Replace the mesh's geometry; its materials, properties and users stay. None: it shows nothing."""
@@ -25,6 +28,8 @@ def fill(mesh: bpy.types.Mesh, rebuilt: Rebuilt | None) -> None:
     mesh.update(calc_edges=True)
     if rebuilt.normals is not None:
         compat.set_corner_normals(mesh, rebuilt.normals)
+    else:
+        compat.smooth_by_angle(mesh, _CREASE)
 
 
 def new_mesh_like(mesh: bpy.types.Mesh, name: str) -> bpy.types.Mesh:
