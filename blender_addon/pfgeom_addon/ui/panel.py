@@ -17,7 +17,7 @@ def length(context: bpy.types.Context, value: float) -> str:
     units = context.scene.unit_settings
     if units.system == "NONE":
         return f"{value:.4g}"
-    return bpy.utils.units.to_string(units.system, "LENGTH", value * units.scale_length, precision=5)
+    return bpy.utils.units.to_string(units.system, "LENGTH", value * units.scale_length, precision=4)
 
 
 def draw_missing(layout: bpy.types.UILayout) -> None:
@@ -68,10 +68,7 @@ class PFGEOM_PT_object(_Panel, bpy.types.Panel):  # noqa: N801
         holder = store.holder_of(obj)
         figures = store.figures_of(holder)
         column = self.layout.column(align=True)
-        for name, value in _lines(context, obj, figures):
-            row = column.row()
-            row.label(text=name)
-            row.label(text=value)
+        _draw_lines(column, _lines(context, obj, figures))
         layout = self.layout.column(align=True)
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator("pfgeom.rebuild")
@@ -91,18 +88,22 @@ class PFGEOM_PT_selection(_Panel, bpy.types.Panel):  # noqa: N801
         stored = sum(entry.get("bytes", 0) for entry in figures)
         raw = sum(entry.get("raw_bytes", 0) for entry in figures)
         objects = sum(store.holder_of(obj) is not None for obj in context.selected_objects)
-        column = self.layout.column(align=True)
-        for name, value in [
-            ("Objects with functions", f"{objects} of {len(context.selected_objects)}"),
+        lines = [
+            ("Compressed", f"{objects} of {len(context.selected_objects)} objects"),
             ("Shapes", str(len(holders))),
             ("Functions", str(sum(sum(entry.get("functions", [0])[:3]) for entry in figures))),
             ("Stored", texts.size(stored)),
             ("Raw", texts.size(raw)),
             ("Ratio", texts.ratio(raw, stored)),
-        ]:
-            row = column.row()
-            row.label(text=name)
-            row.label(text=value)
+        ]
+        _draw_lines(self.layout.column(align=True), lines)
+
+
+def _draw_lines(column: bpy.types.UILayout, lines: list[tuple[str, str]]) -> None:
+    for name, value in lines:
+        row = column.split(factor=0.45)
+        row.label(text=name)
+        row.label(text=value)
 
 
 def _lines(context: bpy.types.Context, obj: bpy.types.Object, figures: dict) -> list[tuple[str, str]]:
@@ -117,17 +118,17 @@ def _lines(context: bpy.types.Context, obj: bpy.types.Object, figures: dict) -> 
         ("Functions", f"{surfaces} + {separators} + {perturbations}"),
         ("Coded faces", str(mesh_faces)) if mesh_faces else None,
         ("Stored", texts.size(figures.get("bytes", 0))),
-        ("Ratio to raw", texts.ratio(figures["raw_bytes"], figures["bytes"])) if figures.get("raw_bytes") else None,
-        (f"Tolerance ({figures.get('metric', '')})", length(context, world * figures.get("tolerance", 0.0))),
-        (f"Maximum ({proof})", length(context, world * figures.get("max", 0.0))),
-        ("Root mean square", length(context, world * figures.get("rms", 0.0))),
+        ("Ratio", texts.ratio(figures["raw_bytes"], figures["bytes"])) if figures.get("raw_bytes") else None,
+        ("Tolerance", f"{length(context, world * figures.get('tolerance', 0.0))} ({figures.get('metric', '')})"),
+        ("Maximum", f"{length(context, world * figures.get('max', 0.0))} ({proof})"),
+        ("RMS", length(context, world * figures.get("rms", 0.0))),
     ]
     measured = deviation.figures_of(obj.data)
     if measured is not None:
         lines += [
-            ("Measured maximum", length(context, measured[0])),
+            ("Measured max", length(context, measured[0])),
             ("Measured rms", length(context, measured[1])),
-            ("Mean normal angle", f"{measured[2]:.2f}\u00b0"),
+            ("Normals", f"{measured[2]:.2f}\u00b0 on average"),
         ]
     return [line for line in lines if line is not None]
 

@@ -11,7 +11,7 @@ from ..scene.compress import Options
 
 class CompressProperties:
     unit: EnumProperty(  # type: ignore[valid-type]
-        name="Tolerance as",
+        name="Unit",
         items=[
             ("SHARE", "Share of size", "The tolerance is a share of each object's size"),
             ("LENGTH", "Length", "The tolerance is a length in the scene, the same for all objects"),
