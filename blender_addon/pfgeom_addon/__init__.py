@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """PF Geometry: meshes as functions, inside Blender.
 
-One folder that is a legacy add-on (3.4 to 4.1) and an extension (4.2 and later). `core` knows nothing of Blender, `scene`
-alone reads and writes its data, `ui` is thin; every difference between versions stands in `compat`.
+One folder that is a legacy add-on (3.4 to 4.1) and an extension (4.2 and later). `core` knows nothing of Blender,
+`scene` alone reads and writes its data, `ui` is thin; every difference between versions stands in `compat`.
 """
 
 # What legacy versions read, without running this file. `make blender` writes the version.

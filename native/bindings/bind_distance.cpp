@@ -28,15 +28,15 @@ struct Closest {
 void find_closest(const Bvh& bvh, const std::vector<Vec3>& queries, std::size_t begin, std::size_t end,
                   Closest& found) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    std::int32_t hint = -1;  // the answer of the query before, which often lies near; it changes the speed only
+    std::int32_t hint =
+        -1;  // the answer of the query before, which often lies near; it changes the speed only
     for (std::size_t i = begin; i < end; ++i) {
         if (!is_finite(queries[i])) {
             found.points[i] = {kNaN, kNaN, kNaN};
             found.distances[i] = kNaN;
             continue;
         }
-        const ClosestPoint closest =
-            bvh.closest(queries[i], std::numeric_limits<double>::infinity(), hint);
+        const ClosestPoint closest = bvh.closest(queries[i], std::numeric_limits<double>::infinity(), hint);
         found.points[i] = closest.point;
         found.faces[i] = hint = closest.face;
         found.distances[i] = std::sqrt(closest.squared_distance);
@@ -62,9 +62,8 @@ py::tuple closest_arrays(const Points& points, const Points& vertices, const Ind
                          py::object progress, const CancelToken* cancel) {
     const auto mesh = std::make_shared<const TriangleMesh>(mesh_from(vertices, faces));
     Job job(threads, std::move(progress), cancel);
-    Closest found = job.run([=, queries = points_from(points)](const Task& task) {
-        return find_all(*mesh, queries, task);
-    });
+    Closest found = job.run(
+        [=, queries = points_from(points)](const Task& task) { return find_all(*mesh, queries, task); });
     const auto count = static_cast<py::ssize_t>(found.faces.size());
     return py::make_tuple(array_from<double>(std::move(found.points)),
                           py::array_t<std::int32_t>(count, found.faces.data()),

@@ -16,9 +16,7 @@ _Vectors = NDArray[np.float64]
 _STEP_INTO_FACE = 0.25
 
 
-def corner_normals(
-    gradient: Callable[[_Vectors], _Vectors], has_gradient: bool, mesh: Mesh, crease: float
-) -> _Vectors:
+def corner_normals(gradient: Callable[[_Vectors], _Vectors], has_gradient: bool, mesh: Mesh, crease: float) -> _Vectors:
     """(m, 3, 3) normals by face and corner; see `pfgeom.Model.corner_normals`."""
     vertices, faces = mesh
     corners = vertices[faces]
@@ -40,7 +38,7 @@ def corner_normals(
 
 
 def _take(normals: _Vectors, candidates: _Vectors, face_normals: _Vectors, least: float) -> NDArray[np.bool_]:
-    """Put candidates, turned to the faces' side, where their cosine to the face's normal is at least this; say where."""
+    """Put candidates, turned to the faces' side, where they are near enough to the face's normal; say where."""
     cosines = np.einsum("fci,fi->fc", candidates, face_normals)
     agree: NDArray[np.bool_] = np.abs(cosines) >= least
     normals[agree] = (candidates * np.sign(cosines)[..., None])[agree]

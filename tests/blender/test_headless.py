@@ -6,7 +6,6 @@ import json
 import re
 import subprocess
 import sys
-import tomllib
 import zipfile
 from pathlib import Path
 
@@ -21,7 +20,7 @@ def test_checks(world: World, archive: Path, tmp_path: Path) -> None:
 
 
 def test_a_file_keeps_the_functions(world: World, archive: Path, saved: Path) -> None:
-    """Twenty objects as functions alone: saved, read by a new process, rebuilt within the tolerance; five times smaller."""
+    """Twenty objects as functions alone, a fifth of the size at most; a new process rebuilds them in tolerance."""
     sizes = json.loads((saved / "sizes.json").read_text())
     functions, originals = sizes["functions"] - sizes["empty"], sizes["originals"] - sizes["empty"]
     assert 5 * functions <= originals, sizes
@@ -43,15 +42,15 @@ def test_the_extension_is_valid(archive: Path) -> None:
 def test_one_version(archive: Path) -> None:
     with zipfile.ZipFile(archive) as content:
         names = content.namelist()
-        manifest = tomllib.loads(content.read("pfgeom_addon/blender_manifest.toml").decode())
+        manifest = content.read("pfgeom_addon/blender_manifest.toml").decode()
         source = content.read("pfgeom_addon/__init__.py").decode()
     assert {name.split("/")[0] for name in names} == {"pfgeom_addon"}
     version = re.search(r"project\(pfgeom VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
-    assert manifest["version"] == version
+    assert f'\nversion = "{version}"\n' in manifest
     assert f'"version": ({version.replace(".", ", ")})' in source
-    assert manifest["wheels"] and not any("numpy" in name for name in names)
-    assert all(f"pfgeom_addon/{wheel.removeprefix('./')}" in names for wheel in manifest["wheels"])
-    assert all(version in wheel for wheel in manifest["wheels"])
+    wheels = re.findall(r'"\./(wheels/[^"]+\.whl)"', manifest)
+    assert wheels and all(version in wheel and f"pfgeom_addon/{wheel}" in names for wheel in wheels)
+    assert not any("numpy" in name for name in names)
 
 
 def test_core_knows_no_blender() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A list of pieces of native work, done one after the other, here or in a thread; watched and stopped from elsewhere."""
+"""Pieces of native work, done one after the other, here or in a thread; watched and stopped from elsewhere."""
 
 from __future__ import annotations
 

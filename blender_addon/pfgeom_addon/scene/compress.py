@@ -43,9 +43,7 @@ class Plan:
     skipped: list[str]  # a sentence each
 
     def pieces(self) -> list[Piece]:
-        return [
-            Piece(group.objects[0], len(group.surface.faces), _work(group, self.options)) for group in self.groups
-        ]
+        return [Piece(group.objects[0], len(group.surface.faces), _work(group, self.options)) for group in self.groups]
 
 
 def why_not(obj: bpy.types.Object) -> str:

@@ -47,9 +47,7 @@ class Plan:
     skipped: list[str]
 
     def pieces(self) -> list[Piece]:
-        return [
-            Piece(target.objects[0], len(target.content), _work(target, self.options)) for target in self.targets
-        ]
+        return [Piece(target.objects[0], len(target.content), _work(target, self.options)) for target in self.targets]
 
 
 def plan(objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: Options) -> Plan:

@@ -53,7 +53,7 @@ def show(obj: bpy.types.Object, mesh: bpy.types.Mesh, keep_original: bool) -> No
     slots = [(slot.link, slot.material) for slot in obj.material_slots]
     obj.modifiers.clear()
     obj.data = mesh
-    for slot, (link, material) in zip(obj.material_slots, slots):
+    for slot, (link, material) in zip(obj.material_slots, slots, strict=False):
         slot.link = link
         if link == "OBJECT":
             slot.material = material

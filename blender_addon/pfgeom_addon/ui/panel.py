@@ -111,7 +111,7 @@ def _lines(context: bpy.types.Context, obj: bpy.types.Object, figures: dict) -> 
         return [("Functions", "no figures stored")]
     surfaces, separators, perturbations, mesh_faces = (*figures.get("functions", ()), 0, 0, 0, 0)[:4]
     world = stretch(read.matrix_of(obj))
-    proof = "proved" if figures.get("certified") else "sampled"
+    proof = "Proved" if figures.get("certified") else "Sampled"
     shown = {"ORIGINAL": "original", "REBUILT": "rebuilt mesh", "PREVIEW": "light preview", "NONE": "nothing"}
     lines = [
         ("Shows", shown.get(store.shows(obj), "")),
@@ -120,15 +120,15 @@ def _lines(context: bpy.types.Context, obj: bpy.types.Object, figures: dict) -> 
         ("Stored", texts.size(figures.get("bytes", 0))),
         ("Ratio", texts.ratio(figures["raw_bytes"], figures["bytes"])) if figures.get("raw_bytes") else None,
         ("Tolerance", f"{length(context, world * figures.get('tolerance', 0.0))} ({figures.get('metric', '')})"),
-        ("Maximum", f"{length(context, world * figures.get('max', 0.0))} ({proof})"),
+        (f"{proof} max", length(context, world * figures.get("max", 0.0))),
         ("RMS", length(context, world * figures.get("rms", 0.0))),
     ]
     measured = deviation.figures_of(obj.data)
     if measured is not None:
         lines += [
-            ("Measured max", length(context, measured[0])),
-            ("Measured rms", length(context, measured[1])),
-            ("Normals", f"{measured[2]:.2f}\u00b0 on average"),
+            ("Measured", f"{length(context, measured[0])} max"),
+            ("", f"{length(context, measured[1])} rms"),
+            ("", f"{measured[2]:.2f}\u00b0 normals"),
         ]
     return [line for line in lines if line is not None]
 

@@ -69,4 +69,4 @@ def check_cancel():
         assert running.done and running.cancelled
     assert slowest <= 0.2, slowest
     assert scenes.datablocks() == before[0]
-    assert all(np.array_equal(a, b) for a, b in zip(before[1], scenes.world_mesh(monkey)))
+    assert all(np.array_equal(a, b) for a, b in zip(before[1], scenes.world_mesh(monkey), strict=True))

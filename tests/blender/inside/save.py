@@ -1,4 +1,4 @@
-"""Writes three .blend files: an empty one, one with twenty objects, and one with their functions alone. Then reload.py."""
+"""Writes .blend files: an empty one, one with twenty objects, one with their functions alone. Then reload.py."""
 
 import json
 import sys

@@ -6,7 +6,6 @@ import bpy
 import numpy as np
 from harness import addon
 
-
 #: Of the objects that save.py writes, in percent of the size.
 SAVED_TOLERANCE = 1.0
 

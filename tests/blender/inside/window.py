@@ -167,9 +167,7 @@ def files():
     exported, blend = harness.folder() / "window.pfg", harness.folder() / "window.blend"
     with in_view():
         bpy.ops.export_mesh.pfgeom(filepath=str(exported))
-        bpy.ops.import_mesh.pfgeom(
-            "INVOKE_DEFAULT", directory=str(exported.parent), files=[{"name": exported.name}]
-        )
+        bpy.ops.import_mesh.pfgeom("INVOKE_DEFAULT", directory=str(exported.parent), files=[{"name": exported.name}])
     yield from until(lambda: "Suzanne.001" in bpy.data.objects, "the imported object")
     bpy.data.objects["Suzanne.001"].location.x += 2.5
     with in_view():
