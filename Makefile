@@ -150,6 +150,7 @@ $(stamp)/wheel: $(stamp)/installed $(stamp)/venv-wheel
 	rm -rf build/wheel && mkdir -p build/wheel dist
 	$(venv)/python -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir build/wheel \
 	    --config-settings=build-dir=$(release) .
+	rm -f dist/pfgeom-*-$$($(venv)/python -c 'import sys; print("cp%d%d" % sys.version_info[:2])')-*.whl
 	$(venv)/auditwheel repair --wheel-dir dist build/wheel/*.whl
 	@touch $@
 
