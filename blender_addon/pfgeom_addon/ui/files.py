@@ -34,7 +34,12 @@ class IMPORT_OT_pfgeom(LongWork, bpy.types.Operator, ImportHelper):  # noqa: N80
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.directory and len(self.files):  # dropped
             return self.start(context)
+        self._asked = True
         return ImportHelper.invoke(self, context, event)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Beside the window if it comes from the file browser."""
+        return self.start(context) if getattr(self, "_asked", False) else LongWork.execute(self, context)
 
     def plan(self, context: bpy.types.Context) -> files.ImportPlan:
         names = [entry.name for entry in self.files if entry.name]

@@ -130,10 +130,13 @@ class LongWork:
 
 
 def _redraw() -> None:
+    """The sidebars alone: to draw a large scene ten times a second would take more time than the work."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
-                area.tag_redraw()
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
 
 
 def _stop_running() -> None:
