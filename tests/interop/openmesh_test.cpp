@@ -3,12 +3,12 @@
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/mesh/mesh.h"
 #include "scenes.h"
+#include "scratch_folder.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 namespace {
@@ -63,13 +63,9 @@ double signed_volume(const TriangleMesh& mesh) {
 
 class Files : public testing::TestWithParam<const char*> {
   protected:
-    std::string path() const {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        std::string name = std::string(test->name()) + "." + GetParam();
-        for (char& c : name) c = c == '/' ? '-' : c;
-        return (std::filesystem::path(testing::TempDir()) / name).string();
-    }
-    void TearDown() override { std::filesystem::remove(path()); }
+    std::string path() const { return folder_ / (std::string("torus.") + GetParam()); }
+
+    pfgeom::ScratchFolder folder_;
 };
 
 TEST_P(Files, OpenMeshReadsWhatWeWrite) {

@@ -1,6 +1,7 @@
 #include "pfgeom/base/file.h"
 
 #include "pfgeom/base/error.h"
+#include "scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -15,21 +16,12 @@ namespace fs = std::filesystem;
 
 class FileTest : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ =
-            fs::path(testing::TempDir()) /
-            ("pfgeom_file_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string path(const std::string& name) const { return folder_ / name; }
     std::ptrdiff_t entries() const {
-        return std::distance(fs::directory_iterator(folder_), fs::directory_iterator{});
+        return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator{});
     }
 
-    fs::path folder_;
+    ScratchFolder folder_;
 };
 
 std::vector<std::uint8_t> counting(std::size_t n) {
@@ -70,7 +62,7 @@ TEST_F(FileTest, WritesThroughSymbolicLinks) {
 
 TEST_F(FileTest, RefusesWhatIsNotARegularFile) {
     EXPECT_THROW(read_file(path("missing")), IoError);
-    EXPECT_THROW(read_file(folder_.string()), IoError);
+    EXPECT_THROW(read_file(folder_.path().string()), IoError);
     ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
     EXPECT_THROW(read_file(path("pipe")), IoError);  // and does not wait for a writer
 }

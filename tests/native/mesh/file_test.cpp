@@ -2,6 +2,7 @@
 
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/file.h"
+#include "scratch_folder.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -12,16 +13,19 @@
 namespace pfgeom {
 namespace {
 
-std::string path(const std::string& extension) {
-    return (std::filesystem::path(testing::TempDir()) / ("pfgeom_mesh_file" + extension)).string();
-}
+class MeshFile : public testing::Test {
+  protected:
+    std::string path(const std::string& extension) const { return folder_ / ("mesh" + extension); }
 
-TriangleMesh round_trip(const TriangleMesh& mesh, const std::string& extension) {
-    write_mesh(path(extension), mesh);
-    return read_mesh(path(extension));
-}
+    TriangleMesh round_trip(const TriangleMesh& mesh, const std::string& extension) const {
+        write_mesh(path(extension), mesh);
+        return read_mesh(path(extension));
+    }
 
-TEST(MeshFile, TextFormatsGiveBackTheSameBits) {
+    ScratchFolder folder_;
+};
+
+TEST_F(MeshFile, TextFormatsGiveBackTheSameBits) {
     TriangleMesh mesh = shapes::bumpy_sphere(3);
     mesh.vertices[0] = {1.0 / 3, -1e-300, 12345678.9012345678};
     for (const char* extension : {".obj", ".off", ".OFF", ".Obj"}) {
@@ -31,7 +35,7 @@ TEST(MeshFile, TextFormatsGiveBackTheSameBits) {
     }
 }
 
-TEST(MeshFile, PlyMovesNoVertexByMoreThanItsShare) {
+TEST_F(MeshFile, PlyMovesNoVertexByMoreThanItsShare) {
     for (const double offset : {0.0, 1.0, 1e3, 1e6, 1e40}) {
         const TriangleMesh mesh = shapes::translated(shapes::bumpy_sphere(2), {offset, 0, 0});
         const TriangleMesh again = round_trip(mesh, ".ply");
@@ -41,14 +45,14 @@ TEST(MeshFile, PlyMovesNoVertexByMoreThanItsShare) {
     }
 }
 
-TEST(MeshFile, PlyIsSinglePrecisionWhereThatIsEnough) {
+TEST_F(MeshFile, PlyIsSinglePrecisionWhereThatIsEnough) {
     const TriangleMesh mesh = shapes::sphere(3);
     round_trip(mesh, ".ply");
     EXPECT_LT(std::filesystem::file_size(path(".ply")),
               200 + 12 * mesh.vertices.size() + 13 * mesh.faces.size());
 }
 
-TEST(MeshFile, StlKeepsCornersAndOrderInSinglePrecision) {
+TEST_F(MeshFile, StlKeepsCornersAndOrderInSinglePrecision) {
     const TriangleMesh mesh = shapes::torus();
     const TriangleMesh again = round_trip(mesh, ".STL");
     ASSERT_EQ(again.faces.size(), mesh.faces.size());
@@ -58,12 +62,12 @@ TEST(MeshFile, StlKeepsCornersAndOrderInSinglePrecision) {
     EXPECT_THROW(write_mesh(path(".stl"), shapes::sphere(0, 1e300)), InvalidInput);
 }
 
-TEST(MeshFile, EmptyMeshesAreFilesToo) {
+TEST_F(MeshFile, EmptyMeshesAreFilesToo) {
     for (const char* extension : {".obj", ".ply", ".stl", ".off"})
         EXPECT_TRUE(round_trip({}, extension).faces.empty()) << extension;
 }
 
-TEST(MeshFile, RefusesWhatItCannotWriteOrRead) {
+TEST_F(MeshFile, RefusesWhatItCannotWriteOrRead) {
     EXPECT_THROW(read_mesh("a.gltf"), InvalidInput);
     EXPECT_THROW(write_mesh(path(".txt"), {}), InvalidInput);
     EXPECT_THROW(read_mesh(path(".missing.obj")), IoError);
@@ -71,7 +75,7 @@ TEST(MeshFile, RefusesWhatItCannotWriteOrRead) {
     EXPECT_THROW(write_mesh("/nowhere/a.obj", shapes::cube()), IoError);
 }
 
-TEST(MeshFile, TheMessageNamesFileAndLine) {
+TEST_F(MeshFile, TheMessageNamesFileAndLine) {
     const std::string text = "v 0 0 0\nv broken";
     write_file(path(".obj"), std::vector<std::uint8_t>(text.begin(), text.end()));
     try {
