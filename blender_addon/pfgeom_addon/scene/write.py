@@ -23,13 +23,13 @@ def fill(mesh: bpy.types.Mesh, rebuilt: Rebuilt | None) -> None:
         return
     surface = rebuilt.surface
     compat.fill_mesh(mesh, surface.vertices, surface.faces)
+    mesh.update(calc_edges=True)
+    if rebuilt.normals is None:
+        compat.smooth_by_angle(mesh, _CREASE)  # makes faces smooth in later versions: their own shading comes after it
     mesh.polygons.foreach_set("use_smooth", surface.smooth)
     mesh.polygons.foreach_set("material_index", surface.materials)
-    mesh.update(calc_edges=True)
     if rebuilt.normals is not None:
         compat.set_corner_normals(mesh, rebuilt.normals)
-    else:
-        compat.smooth_by_angle(mesh, _CREASE)
 
 
 def new_mesh_like(mesh: bpy.types.Mesh, name: str) -> bpy.types.Mesh:
