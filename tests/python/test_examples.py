@@ -118,10 +118,10 @@ def test_car_union_is_as_many_functions(car):
     pytest.importorskip("manifold3d")
     parts = [*car.wheel(0.0, 0.5), car.Part("axle", (0.0, 0.1, 0.34), (0.05, 0.5, 0.05))]
     union = car.unite(car.make_car([part], chord=3e-4) for part in parts)
-    model = pfgeom.compress(union, tolerance=1e-3).model
+    model = pfgeom.compress(union, tolerance=1e-3)
     assert (model.functions.surface, model.functions.mesh_part_faces) == (len(parts), 0)
-    assert model.promise["functions_certified"]
-    assert model.promise["bound_functions"] <= model.promise["tolerance"]
+    assert model.functions_certified
+    assert model.bound_functions <= model.tolerance
 
 
 def test_car_union_says_what_it_takes(car, monkeypatch):

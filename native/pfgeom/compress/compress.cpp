@@ -224,11 +224,14 @@ class Compressor {
         model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
         const Result<Model> first = decode(encode(model_));
         if (!first) return false;  // asks for more work than its size allows
-        const TriangleMesh mesh = to_mesh(*first, {}, quiet(task_, task_.threads));
+        const TriangleMesh mesh = default_mesh(*first);
         task_.report(0.96, "measure");
         DeviationOptions options;
-        options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, options.samples);
-        if (options_.metric == Metric::max) options.certify_below = tolerance_;
+        // Of a maximum, which is proved, samples tell only the rms beside it.
+        const bool by_max = options_.metric == Metric::max;
+        const std::size_t most = by_max ? 50'000 : options.samples;
+        options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, most);
+        if (by_max) options.certify_below = tolerance_;
         result_.report.deviation = measure_deviation(input_, mesh, options, quiet(task_, task_.threads));
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
@@ -241,6 +244,18 @@ class Compressor {
         const double reached =
             options_.metric == Metric::rms ? model_.promise.rms : model_.promise.bound_mesh;
         return reached <= tolerance_;
+    }
+
+    // A tree alone was made a mesh when it was proved.
+    TriangleMesh default_mesh(const Model& decoded) const {
+        if (chosen_.size() == 1 && is_function(0)) {
+            const Object &object = decoded.objects.front(), &proved = chosen_[0]->object;
+            const auto* tree = std::get_if<SetTree>(&object.shape);
+            const auto* same = std::get_if<SetTree>(&proved.shape);
+            if (tree && same && *tree == *same && object.mesh_code == proved.mesh_code)
+                return chosen_[0]->mesh;
+        }
+        return to_mesh(decoded, {}, quiet(task_, task_.threads));
     }
 
     void fill_report(const TriangleMesh& mesh) {
