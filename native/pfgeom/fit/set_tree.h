@@ -32,6 +32,7 @@ struct TreeFit {
     double bits = 0;  ///< estimate of the tree's code
     std::vector<Region> regions;
     double whole = 0;  ///< share of the surface that whole quadrics serve
+    /// Then few samples do, and one setting: there are hardly any seams.
     bool mostly_whole() const { return whole >= 0.9; }
 
     RawTree raw;
