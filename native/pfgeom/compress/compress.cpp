@@ -15,6 +15,7 @@ namespace {
 constexpr double kSeamShare = 1.0 / 16;
 // Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
+constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
@@ -116,7 +117,7 @@ class Compressor {
 
     std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) const {
         std::optional<Outcome> best;
-        std::size_t most_bytes = std::size_t{1} << 24;
+        std::size_t most_bytes = kNoLimit;
         if (goal.mesh.faces.size() <= kQuickMesh) {
             const MeshEstimate estimate = estimate_mesh(goal, task);
             best = try_tree(goal, estimate.likely, task);
@@ -233,11 +234,14 @@ class Compressor {
         model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
         const Result<Model> first = decode(encode(model_));
         if (!first) return false;  // asks for more work than its size allows
-        const TriangleMesh mesh = to_mesh(*first, {}, quiet(task_, task_.threads));
+        const TriangleMesh mesh = default_mesh(*first);
         task_.report(0.96, "measure");
         DeviationOptions options;
-        options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, options.samples);
-        if (options_.metric == Metric::max) options.certify_below = tolerance_;
+        // Of a maximum, which is proved, samples tell only the rms beside it.
+        const bool by_max = options_.metric == Metric::max;
+        const std::size_t most = by_max ? 50'000 : options.samples;
+        options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, most);
+        if (by_max) options.certify_below = tolerance_;
         result_.report.deviation = measure_deviation(input_, mesh, options, quiet(task_, task_.threads));
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
@@ -250,6 +254,18 @@ class Compressor {
         const double reached =
             options_.metric == Metric::rms ? model_.promise.rms : model_.promise.bound_mesh;
         return reached <= tolerance_;
+    }
+
+    // A tree alone was made a mesh when it was proved.
+    TriangleMesh default_mesh(const Model& decoded) const {
+        if (chosen_.size() == 1 && is_function(0)) {
+            const Object &object = decoded.objects.front(), &proved = chosen_[0]->object;
+            const auto* tree = std::get_if<SetTree>(&object.shape);
+            const auto* same = std::get_if<SetTree>(&proved.shape);
+            if (tree && same && *tree == *same && object.mesh_code == proved.mesh_code)
+                return chosen_[0]->mesh;
+        }
+        return to_mesh(decoded, {}, quiet(task_, task_.threads));
     }
 
     void fill_report(const TriangleMesh& mesh) {

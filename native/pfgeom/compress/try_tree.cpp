@@ -24,6 +24,10 @@ namespace {
 constexpr double kTreeShare = 0.97;
 constexpr double kChordShares[] = {0.25, 0.1};
 constexpr int kMostRounds = 6, kMostProofs = 3;
+// Where a union of ellipsoids fills a pit of the mesh, the ellipsoids around it are rounded again, each time
+// to so much less there: leaves that grow would cut the pit out of them one after the other.
+constexpr int kMostHolds = 4;
+constexpr double kHold = 0.4;
 // More cells than these left open by a certificate: the tree is far from what it should be.
 constexpr std::int64_t kMostUnresolved = 100'000;
 // A region costs at least so many bytes.
@@ -96,6 +100,11 @@ class TreeSearch {
         double bound = 0;  // in the cube's units
     };
 
+    struct Candidate {
+        TreeFit fit;
+        TreeFitOptions options;
+    };
+
     static TriangleMesh outwards_in_cube(const Goal& goal, const Frame& frame) {
         TriangleMesh mesh = in_cube(goal.mesh, frame);
         if (goal.inward) {
@@ -107,7 +116,7 @@ class TreeSearch {
     // Of the settings, the certified tree with the fewest bits. The smallest is mended first: it may stay
     // below what the others begin with.
     std::optional<Certified> smallest(double tolerance) const {
-        std::vector<TreeFit> fits;
+        std::vector<Candidate> fits;
         const std::size_t settings = goal_.effort == Effort::fast ? 1 : std::size(kShares);
         for (const Shares& shares : std::span(kShares).first(settings)) {
             TreeFitOptions options;
@@ -117,15 +126,16 @@ class TreeSearch {
             options.quantise_share = shares.quantise;
             options.tube_share = shares.tube;
             options.most_regions = std::clamp<std::size_t>(most_bytes_ / kBytesOfRegion, 1, kMostRegions);
-            fits.push_back(fit_set_tree(mesh_, bvh_, options, task_));
-            if (fits.back().tree.nodes.empty()) return {};
+            fits.push_back({fit_set_tree(mesh_, bvh_, options, task_), options});
+            if (fits.back().fit.tree.nodes.empty()) return {};
+            if (fits.back().fit.mostly_whole()) break;  // no seams that want other shares
         }
-        std::ranges::stable_sort(fits, {}, &TreeFit::bits);
+        std::ranges::stable_sort(fits, {}, [](const Candidate& c) { return c.fit.bits; });
         std::optional<Certified> best;
         double least = 8.0 * static_cast<double>(most_bytes_);
-        for (TreeFit& fit : fits) {
+        for (auto& [fit, options] : fits) {
             if (fit.bits >= least) continue;
-            const std::optional<double> bound = certify(fit, tolerance, least);
+            const std::optional<double> bound = certify(fit, options, least);
             if (!bound) continue;
             least = fit.bits;
             best = {std::move(fit.tree), *bound};
@@ -135,9 +145,11 @@ class TreeSearch {
 
     // Mends the tree until the certificate finds nothing wrong: what it then proves, in the cube's
     // units. Nothing: it does not come to that, or the tree grows beyond `most_bits`.
-    std::optional<double> certify(TreeFit& fit, double tolerance, double most_bits) const {
+    std::optional<double> certify(TreeFit& fit, TreeFitOptions& options, double most_bits) const {
         Random random(1);
-        for (int round = 0; round < kMostRounds; ++round) {
+        const double tolerance = options.tolerance;
+        double held = 1;
+        for (int round = 0, holds = 0; round < kMostRounds;) {
             TreeBoundOptions rough;
             rough.finest = kRoughest;
             rough.labels = kLabels;
@@ -153,6 +165,14 @@ class TreeSearch {
                 if (exact.holds(tolerance_)) return exact.proved;
             }
             if (bound.counter_examples.empty() && bound.missed.empty()) return {};
+            if (bound.counter_examples.empty() && fit.mostly_whole() && holds < kMostHolds) {
+                ++holds;
+                held *= kHold;
+                for (const LabelledPoint& p : bound.missed) options.held.push_back({p.point, held});
+                refit_set_tree(fit, mesh_, bvh_, options, task_);
+                continue;
+            }
+            ++round;
             repair_set_tree(fit, bvh_, evidence(bound, tolerance, random), task_);
             if (fit.bits > most_bits) return {};
         }
