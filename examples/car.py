@@ -1,10 +1,10 @@
 """A car of 83 ellipsoids: made, compressed at 1e-3 of the diagonal, rebuilt and measured.
 
-    python examples/car.py [--union] [--parts N] [--out DIR]
+    python examples/car.py [--union] [--seed N] [--parts N] [--out DIR]
 
 As it comes it is 83 closed shells that stand in each other, 136,000 triangles shared out by size: none is farther
 than 3e-4 of the diagonal from its ellipsoid. With --union it is the outer surface alone, which takes manifold3d
-(examples/requirements.txt).
+(examples/requirements.txt). Each seed is a car of its own: places, sizes and angles of the parts differ a little.
 """
 
 import argparse
@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 
 TOLERANCE = 1e-3  # of the diagonal
 CHORD = 1.125e-3  # metres that a triangle may be below its ellipsoid: 2.2e-4 of the diagonal
+VARIED = 0.05  # of a part's half axes: how far another seed may move or stretch it
+TURNED = 2.0  # degrees
 
 
 class Part(NamedTuple):
@@ -93,11 +95,26 @@ def wheel(x: float, y: float) -> Iterator[Part]:
         yield Part("spoke", centre, (0.09, 0.03, 0.025), pitch=-angle)
 
 
-def car_parts() -> list[Part]:
-    """All 83, those of the body first."""
+def car_parts(seed: int = 0) -> list[Part]:
+    """All 83, those of the body first. Seed 0 is the car as it was drawn."""
     sides = [Part(p.name, (p.centre[0], s * p.centre[1], p.centre[2]), p.axes, p.pitch, s * p.yaw)
              for p in PAIRS for s in (1, -1)]  # fmt: skip
-    return [*BODY, *sides, *(part for place in WHEELS for part in wheel(*place))]
+    drawn = [*BODY, *sides, *(part for place in WHEELS for part in wheel(*place))]
+    if seed == 0:
+        return drawn
+    random = np.random.default_rng(seed)
+    changes = {part.name: random.uniform(-1, 1, 8) for part in drawn}
+    return [varied(part, changes[part.name]) for part in drawn]
+
+
+def varied(part: Part, change: Array) -> Part:
+    """Moved, stretched and turned. Left and right stay alike, and what lies in the middle stays there."""
+    side = np.sign(part.centre[1])
+    moves, stretches = VARIED * change[:3] * (1, side, 1), 1 + VARIED * change[3:6]
+    x, y, z = (float(c + m * a) for c, m, a in zip(part.centre, moves, part.axes, strict=True))
+    a, b, c = (float(a * s) for a, s in zip(part.axes, stretches, strict=True))
+    pitch, yaw = (float(angle) for angle in TURNED * change[6:] * (1, side))
+    return Part(part.name, (x, y, z), (a, b, c), part.pitch + pitch, part.yaw + yaw)
 
 
 def make_car(parts: Iterable[Part] | None = None, chord: float = CHORD) -> pfgeom.Mesh:
@@ -171,14 +188,16 @@ def main() -> None:
         description="Makes a car of 83 ellipsoids, compresses it, prints what was measured."
     )
     parser.add_argument("--union", action="store_true", help="the outer surface of the union (takes manifold3d)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="another car (default 0: as it was drawn)")
     parser.add_argument("--parts", type=int, metavar="N", help="the first N ellipsoids alone")
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="for results (default out)")
     args = parser.parse_args()
 
-    parts = car_parts()[: args.parts]
+    parts = car_parts(args.seed)[: args.parts]
     mesh = unite(make_car([part]) for part in parts) if args.union else make_car(parts)
     args.out.mkdir(parents=True, exist_ok=True)
-    path = args.out / ("car-union.ply" if args.union else "car.ply")
+    name = "car-union" if args.union else "car"
+    path = args.out / (f"{name}-{args.seed}.ply" if args.seed else f"{name}.ply")
     pfgeom.write_mesh(path, mesh)
     print_results([row(path, TOLERANCE, args.out)], args.out)
 

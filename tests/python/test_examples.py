@@ -61,6 +61,20 @@ def test_car_has_83_ellipsoids_and_about_136_000_triangles(car):
     assert 3e-4 * measure.diagonal(mesh.vertices) >= car.CHORD
 
 
+def test_car_of_another_seed_is_alike(car):
+    drawn, other = car.car_parts(), car.car_parts(3)
+    assert other == car.car_parts(3)
+    assert [part.name for part in other] == [part.name for part in drawn]
+    for was, now in zip(drawn, other, strict=True):
+        assert now != was
+        assert np.abs(np.subtract(now.centre, was.centre) / was.axes).max() <= car.VARIED
+        assert np.abs(np.divide(now.axes, was.axes) - 1).max() <= car.VARIED + 1e-12
+        assert max(abs(now.pitch - was.pitch), abs(now.yaw - was.yaw)) <= car.TURNED
+    pairs = [part for part in other[len(car.BODY) :] if part.name in {p.name for p in car.PAIRS}]
+    for left, right in zip(pairs[::2], pairs[1::2], strict=True):
+        assert right == left._replace(centre=(left.centre[0], -left.centre[1], left.centre[2]), yaw=-left.yaw)
+
+
 def test_car_is_separate_shells_of_ellipsoids(car):
     parts = car.car_parts()[10:15]
     vertices, faces = car.make_car(parts, chord=0.01)
@@ -98,6 +112,16 @@ def test_car_union(car):
     assert len(vertices) - len(faces) / 2 == 2  # one shell
     apart = [measure.signed_volume(*shell) for shell in shells]
     assert max(apart) < measure.signed_volume(vertices, faces) < sum(apart)
+
+
+def test_car_union_is_as_many_functions(car):
+    pytest.importorskip("manifold3d")
+    parts = [*car.wheel(0.0, 0.5), car.Part("axle", (0.0, 0.1, 0.34), (0.05, 0.5, 0.05))]
+    union = car.unite(car.make_car([part], chord=3e-4) for part in parts)
+    model = pfgeom.compress(union, tolerance=1e-3)
+    assert (model.functions.surface, model.functions.mesh_part_faces) == (len(parts), 0)
+    assert model.functions_certified
+    assert model.bound_functions <= model.tolerance
 
 
 def test_car_union_says_what_it_takes(car, monkeypatch):

@@ -45,6 +45,13 @@ std::optional<Outcome> try_tree(const Goal& goal, std::size_t most_bytes, const 
 /// Base quadric + hierarchy of perturbations, for a closed island. Gives up when it needs more than
 /// `most_bytes`.
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
+/// What the simplified and coded mesh would take, at a small part of the work.
+struct MeshEstimate {
+    std::size_t least = 0;   ///< hardly ever fewer bytes than this
+    std::size_t likely = 0;  ///< hardly ever more than this
+};
+MeshEstimate estimate_mesh(const Goal& goal, const Task& task);
+
 /// Simplified and coded mesh: any shape; always holds.
 Outcome try_mesh(const Goal& goal, const Task& task);
 

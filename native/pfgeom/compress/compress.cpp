@@ -13,8 +13,9 @@ namespace {
 
 // Boundary edges closer than this share of the tolerance are one seam.
 constexpr double kSeamShare = 1.0 / 16;
-// Up to so many faces the mesh candidate is cheap enough to be tried first, as the bytes to beat.
+// Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
+constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
@@ -94,18 +95,42 @@ class Compressor {
         const Goal goal = goal_of(mesh, bvh, island.signed_volume < 0);
         if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
         if (mesh.faces.size() < kLeastFaces) return {};
-        std::optional<Outcome> plain;
-        const bool by_max = options_.metric == Metric::max, large = mesh.faces.size() > kQuickMesh;
-        if (by_max || !large) plain = try_mesh(goal, task);
+        return goal.metric == Metric::max ? fit_by_max(goal, task) : fit_by_rms(goal, task);
+    }
+
+    // A tree comes first: where a shape is made of quadrics nothing else comes near, and neither needs to be
+    // made for comparison. The estimate of the mesh says when that is so.
+    std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) const {
+        const MeshEstimate estimate = estimate_mesh(goal, task);
+        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
+        const bool all = goal.effort == Effort::best;
+        if (best && best->bytes < estimate.least && !all) return best;
+        Outcome plain = try_mesh(goal, task);
         // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
-        if (by_max && large && plain->holds) return plain;
-        std::size_t most_bytes = plain ? plain->bytes : std::size_t{1} << 24;
-        std::optional<Outcome> tree = try_tree(goal, most_bytes, task);
-        if (tree) most_bytes = std::min(most_bytes, tree->bytes);
-        std::optional<Outcome> best = try_hierarchy(goal, most_bytes, task);
-        if (tree && (!best || tree->bytes <= best->bytes)) best = std::move(tree);
-        if (plain && plain->holds && (!best || plain->bytes <= best->bytes)) best = std::move(plain);
+        if (all || goal.mesh.faces.size() <= kQuickMesh || !plain.holds) {
+            const std::size_t most = std::min(best ? best->bytes : plain.bytes, plain.bytes);
+            take_cheaper(try_hierarchy(goal, most, task), best);
+        }
+        take_cheaper(std::move(plain), best);
         return best;
+    }
+
+    std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) const {
+        std::optional<Outcome> best;
+        std::size_t most_bytes = kNoLimit;
+        if (goal.mesh.faces.size() <= kQuickMesh) {
+            const MeshEstimate estimate = estimate_mesh(goal, task);
+            best = try_tree(goal, estimate.likely, task);
+            if (best && best->bytes < estimate.least && goal.effort != Effort::best) return best;
+            take_cheaper(try_mesh(goal, task), best);
+            if (best) most_bytes = best->bytes;
+        }
+        take_cheaper(try_hierarchy(goal, most_bytes, task), best);
+        return best;
+    }
+
+    static void take_cheaper(std::optional<Outcome> outcome, std::optional<Outcome>& best) {
+        if (outcome && outcome->holds && (!best || outcome->bytes < best->bytes)) best = std::move(outcome);
     }
 
     bool is_function(std::size_t i) const { return chosen_[i] && chosen_[i]->candidate != "mesh"; }
@@ -209,11 +234,14 @@ class Compressor {
         model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
         const Result<Model> first = decode(encode(model_));
         if (!first) return false;  // asks for more work than its size allows
-        const TriangleMesh mesh = to_mesh(*first, {}, quiet(task_, task_.threads));
+        const TriangleMesh mesh = default_mesh(*first);
         task_.report(0.96, "measure");
         DeviationOptions options;
-        options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, options.samples);
-        if (options_.metric == Metric::max) options.certify_below = tolerance_;
+        // Of a maximum, which is proved, samples tell only the rms beside it.
+        const bool by_max = options_.metric == Metric::max;
+        const std::size_t most = by_max ? 50'000 : options.samples;
+        options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, most);
+        if (by_max) options.certify_below = tolerance_;
         result_.report.deviation = measure_deviation(input_, mesh, options, quiet(task_, task_.threads));
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
@@ -226,6 +254,18 @@ class Compressor {
         const double reached =
             options_.metric == Metric::rms ? model_.promise.rms : model_.promise.bound_mesh;
         return reached <= tolerance_;
+    }
+
+    // A tree alone was made a mesh when it was proved.
+    TriangleMesh default_mesh(const Model& decoded) const {
+        if (chosen_.size() == 1 && is_function(0)) {
+            const Object &object = decoded.objects.front(), &proved = chosen_[0]->object;
+            const auto* tree = std::get_if<SetTree>(&object.shape);
+            const auto* same = std::get_if<SetTree>(&proved.shape);
+            if (tree && same && *tree == *same && object.mesh_code == proved.mesh_code)
+                return chosen_[0]->mesh;
+        }
+        return to_mesh(decoded, {}, quiet(task_, task_.threads));
     }
 
     void fill_report(const TriangleMesh& mesh) {

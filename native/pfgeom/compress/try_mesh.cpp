@@ -1,8 +1,11 @@
 #include "pfgeom/codec/mesh_part_codec.h"
 #include "pfgeom/compress/candidate.h"
+#include "pfgeom/fit/collapse_estimate.h"
 #include "pfgeom/fit/simplify.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -35,6 +38,20 @@ std::optional<Outcome> search_rms(const Goal& goal, const Task& task) {
 }
 
 }  // namespace
+
+// Measured: at a maximum of 1e-3 of the diagonal, on eight closed islands with 200 to 1,900 vertices in the
+// end, plane quadrics alone leave 0.54 to 0.99 times as many at the tolerance over √2, 0.9 to 1.5 times at
+// half of it; for the rms, on three, 0.6 to 0.93 times at four times the tolerance, 1.2 to 2.3 times at
+// twice. A vertex takes 2.0 to 4.4 bytes.
+MeshEstimate estimate_mesh(const Goal& goal, const Task& task) {
+    constexpr double kLeastBytes = 2, kMostBytes = 3.5;
+    const bool by_max = goal.metric == Metric::max;
+    const std::array limits{goal.tolerance * (by_max ? 0.5 : 2),
+                            goal.tolerance * (by_max ? std::sqrt(0.5) : 4)};
+    const std::vector<std::size_t> left = vertices_after_collapses(goal.mesh, limits, task);
+    return {static_cast<std::size_t>(kLeastBytes * static_cast<double>(left[1])),
+            static_cast<std::size_t>(kMostBytes * static_cast<double>(left[0]))};
+}
 
 Outcome try_mesh(const Goal& goal, const Task& task) {
     if (goal.metric == Metric::rms) {

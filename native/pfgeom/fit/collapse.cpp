@@ -1,6 +1,6 @@
 #include "pfgeom/fit/collapse.h"
 
-#include "pfgeom/fit/symmetric3.h"
+#include "pfgeom/fit/plane_quadric.h"
 
 #include <algorithm>
 #include <limits>
@@ -15,50 +15,8 @@ constexpr double kWorthFitting = 0.3;
 // A proposal this much over the limit is fitted too; beyond, fitting does not save it.
 constexpr double kMayBeSaved = 3;
 
-// Σ w (n·x + d)² over planes.
-struct PlaneQuadric {
-    Symmetric3 a;
-    Vec3 b;
-    double c = 0, weight = 0;
-
-    void add(const Vec3& normal, const Vec3& point, double w) {
-        const double d = -dot(normal, point);
-        a.add(normal, w);
-        b += normal * (w * d);
-        c += w * d * d;
-        weight += w;
-    }
-    PlaneQuadric& operator+=(const PlaneQuadric& o) {
-        a += o.a, b += o.b, c += o.c, weight += o.weight;
-        return *this;
-    }
-    double operator()(const Vec3& x) const { return std::max(dot(x, a * x) + 2 * dot(b, x) + c, 0.0); }
-    // Where it is least; along directions that it leaves open, as near to `middle` as possible.
-    Vec3 least(const Vec3& middle) const {
-        Symmetric3 system = a;
-        system.add_diagonal(1e-3 * a.trace());
-        return middle - system.solve(a * middle + b);
-    }
-};
-
-std::vector<PlaneQuadric> quadrics_of(const CollapseMesh& mesh) {
-    std::vector<PlaneQuadric> quadrics(mesh.vertex_count());
-    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        const auto v = static_cast<std::int32_t>(i);
-        const std::vector<std::int32_t> rims = mesh.neighbours(v, false);
-        for (const std::int32_t f : mesh.faces_at(v)) {
-            const auto t = mesh.corners(f);
-            const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
-            quadrics[i].add(normalized(n), t[0], norm(n));
-            for (const std::int32_t w : mesh.face(f)) {  // borders hold their place across the surface
-                if (!std::binary_search(rims.begin(), rims.end(), w)) continue;
-                const Vec3 edge = mesh.point(w) - mesh.point(v);
-                quadrics[i].add(normalized(cross(edge, n)), mesh.point(v), squared_norm(edge));
-            }
-        }
-    }
-    return quadrics;
-}
+// Share of the limit that a collapse may take, by its quadrics alone, to be done without a look at distances.
+constexpr double kHarmless = 0.1;
 
 class Collapser {
   public:
@@ -67,7 +25,7 @@ class Collapser {
           error_(error),
           limits_(limits),
           task_(task),
-          quadrics_(quadrics_of(mesh)),
+          quadrics_(plane_quadrics(mesh)),
           moved_(mesh.vertex_count(), 0),
           changed_(mesh.vertex_count(), 0) {}
     void run();
@@ -77,8 +35,8 @@ class Collapser {
         double key;
         std::int32_t u, v;
         std::uint32_t clock;
-        bool measured;
-        Vec3 place;  // if measured
+        bool measured, harmless;
+        Vec3 place;
         bool operator<(const Entry& o) const {
             return key != o.key ? key > o.key : u != o.u ? u > o.u : v != o.v ? v > o.v : clock > o.clock;
         }
@@ -90,7 +48,9 @@ class Collapser {
     void propose(std::int32_t u, std::int32_t v);
     Proposal measure(std::int32_t u, std::int32_t v);
     Proposal measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double most);
-    bool apply(std::int32_t u, std::int32_t v, const Vec3& place);
+    void take(const Entry& e);
+    void apply(std::int32_t u, std::int32_t v, const Vec3& place);
+    void replace(std::int32_t u, std::int32_t v, const Vec3& place);
     double limit() const;
     double length_cost(std::int32_t u, std::int32_t v) const;
 
@@ -120,11 +80,12 @@ double Collapser::length_cost(std::int32_t u, std::int32_t v) const {
 void Collapser::propose(std::int32_t u, std::int32_t v) {
     PlaneQuadric q = quadrics_[static_cast<std::size_t>(u)];
     q += quadrics_[static_cast<std::size_t>(v)];
-    const double rest = q(q.least((mesh_.point(u) + mesh_.point(v)) * 0.5));
+    const Vec3 place = q.least((mesh_.point(u) + mesh_.point(v)) * 0.5);
+    const double rest = q(place), rms = std::sqrt(rest / std::max(q.weight, 1e-300));
     // Both in the unit of forward(): the quadrics' weights are doubled areas, counted at three corners.
-    const double estimate =
-        limits_.metric == Metric::max ? std::sqrt(rest / std::max(q.weight, 1e-300)) : rest / 6;
-    queue_.push({estimate + length_cost(u, v), u, v, clock_, false, {}});
+    const double estimate = limits_.metric == Metric::max ? rms : rest / 6;
+    queue_.push(
+        {estimate + length_cost(u, v), u, v, clock_, false, rms <= kHarmless * limits_.forward, place});
 }
 
 Collapser::Proposal Collapser::measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double most) {
@@ -146,9 +107,18 @@ Collapser::Proposal Collapser::measure(std::int32_t u, std::int32_t v) {
     return best;
 }
 
-bool Collapser::apply(std::int32_t u, std::int32_t v, const Vec3& place) {
+// Without a look at distances.
+void Collapser::take(const Entry& e) {
+    mesh_.patch_of_collapse(e.u, e.v, e.place, patch_);
+    if (mesh_.keeps_orientation(patch_)) replace(e.u, e.v, e.place);
+}
+
+void Collapser::apply(std::int32_t u, std::int32_t v, const Vec3& place) {
     mesh_.patch_of_collapse(u, v, place, patch_);
-    if (error_.backward(patch_, limits_.backward) == kInfinity) return false;
+    if (error_.backward(patch_, limits_.backward) < kInfinity) replace(u, v, place);
+}
+
+void Collapser::replace(std::int32_t u, std::int32_t v, const Vec3& place) {
     error_.commit(patch_);
     mesh_.collapse(u, v, place);
     quadrics_[static_cast<std::size_t>(v)] += quadrics_[static_cast<std::size_t>(u)];
@@ -158,7 +128,6 @@ bool Collapser::apply(std::int32_t u, std::int32_t v, const Vec3& place) {
         changed_[static_cast<std::size_t>(w)] = clock_;
         propose(std::min(v, w), std::max(v, w));
     }
-    return true;
 }
 
 void Collapser::run() {
@@ -174,11 +143,15 @@ void Collapser::run() {
             apply(top.u, top.v, top.place);
             continue;
         }
+        if (top.harmless && !top.measured) {
+            take(top);
+            continue;
+        }
         const Proposal found = measure(top.u, top.v);
         if (found.cost == kInfinity) continue;
         const double key = found.cost + length_cost(top.u, top.v);
         if (key > top.key && !queue_.empty() && key > queue_.top().key) {
-            queue_.push({key, top.u, top.v, clock_, true, found.place});
+            queue_.push({key, top.u, top.v, clock_, true, false, found.place});
         } else {
             apply(top.u, top.v, found.place);
         }

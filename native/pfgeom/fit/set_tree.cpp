@@ -21,21 +21,24 @@ struct Effort {
     int scales;               // of a quadric
     std::vector<int> powers;  // settings that are scouted
     std::vector<double> single_weights;
+    std::vector<int> peeled_powers;
     std::size_t finalists;  // of them
     int tried;              // questions of a cell, by the finalists
 };
 
 Effort effort_of(int level) {
-    if (level <= 0) return {1000, 100000, 16, {2, 4}, {0.4}, 1, 1};
-    if (level == 1) return {3000, 300000, 40, {1, 2, 3, 4, 6}, {0.1, 0.2, 0.5, 0.9}, 4, 6};
-    return {6000, 800000, 80, {1, 2, 3, 4, 5, 6, 8}, {0.1, 0.2, 0.35, 0.5, 0.7, 0.9}, 8, 10};
+    if (level <= 0) return {1000, 100000, 16, {2, 4}, {0.4}, {4}, 1, 1};
+    if (level == 1) return {3000, 300000, 40, {1, 2, 3, 4, 6}, {0.1, 0.2, 0.5, 0.9}, {2, 4}, 4, 6};
+    return {6000, 800000, 80, {1, 2, 3, 4, 5, 6, 8}, {0.1, 0.2, 0.35, 0.5, 0.7, 0.9}, {1, 2, 4, 6}, 8, 10};
 }
 
 // The more seams, the more there is to see; too few are dear, since what they miss is mended leaf by leaf
 // (printed part of 55 quadrics: 40,000 samples end at 1355 bytes, 150,000 at 1264, 400,000 at 1130).
-std::size_t sample_count(const Effort& effort, std::size_t quadrics) {
+// Of whole quadrics the hidden part is checked already.
+std::size_t sample_count(const Effort& effort, const TreeFit& fit) {
     constexpr std::size_t kLeast = 20000;
-    return std::clamp(effort.samples * quadrics, kLeast, effort.most_samples);
+    if (fit.mostly_whole()) return kLeast;
+    return std::clamp(effort.samples * fit.quadrics.size(), kLeast, effort.most_samples);
 }
 
 // Half the tolerance or a little less is the unit of constants.
@@ -56,16 +59,37 @@ void set_box(SetTree& tree, const Box& bounds) {
     }
 }
 
+std::vector<Region> find_regions(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOptions& options,
+                                 const Task& task) {
+    const SignedDistance distance(mesh, bvh);
+    SegmentOptions segmenting;
+    segmenting.tolerance = options.tolerance * options.fit_share;
+    segmenting.most_regions = options.most_regions;
+    const std::vector<WholeQuadric> whole = find_whole_quadrics(mesh, distance, segmenting.tolerance,
+                                                                options.tolerance * options.tube_share, task);
+    segmenting.whole = whole;
+    return segment(mesh, segmenting, task);
+}
+
+double share_of_whole(const std::vector<Region>& regions) {
+    double whole = 0, area = 0;
+    for (const Region& region : regions) {
+        whole += region.whole ? region.area : 0;
+        area += region.area;
+    }
+    return whole / area;
+}
+
 // The quadric of each region, the same for regions that one serves.
 void quantise_regions(const TriangleMesh& mesh, const std::vector<Region>& regions,
                       const TreeFitOptions& options, TreeFit& fit, const Task& task) {
     const int resolution = fit.tree.resolution, scales = effort_of(options.effort).scales;
-    std::vector<std::vector<CheckPoint>> checks =
-        region_checks(mesh, regions, options.tolerance * options.quantise_share);
+    std::vector<RegionChecks> checks =
+        region_checks(mesh, regions, options.held, options.tolerance, options.quantise_share, task);
     std::vector<QuantisedQuadric> own(regions.size());
     parallel_chunks(regions.size(), 1, task, [&](std::size_t r, std::size_t) {
-        std::optional<QuantisedQuadric> best =
-            quantise(regions[r].sums, checks[r], resolution, scales, options.tolerance * options.tolerance);
+        std::optional<QuantisedQuadric> best = quantise(checks[r].sums, checks[r].points, resolution, scales,
+                                                        options.tolerance * options.tolerance);
         if (!best) {
             const TreeQuadric fine = round_finely(regions[r].quadric, resolution);
             best = {fine, estimated_bits(fine)};
@@ -116,8 +140,10 @@ std::vector<BuildOptions> scout(const TreeFit& fit, const Effort& effort, const 
     constexpr std::size_t kScouted = 4;  // one in so many samples, which have no order
     std::vector<BuildOptions> settings;
     for (const int power : effort.powers) {
+        if (fit.mostly_whole()) break;
         for (const double weight : effort.single_weights) settings.push_back({power, weight});
     }
+    for (const int power : effort.peeled_powers) settings.push_back({.power = power, .peel = true});
     const std::vector<RawTree> trees =
         build_all(fit, std::span(fit.samples).first(fit.samples.size() / kScouted), settings, task);
     std::vector<std::size_t> order(settings.size());
@@ -148,24 +174,26 @@ TreeFit fit_set_tree(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOpti
     fit.tree.resolution = static_cast<std::uint8_t>(resolution_for(options.tolerance));
     set_box(fit.tree, bvh.bounds());
     task.report(0, "finding regions");
-    SegmentOptions segmenting;
-    segmenting.tolerance = options.tolerance * options.fit_share;
-    segmenting.most_regions = options.most_regions;
-    const std::vector<Region> regions = segment(mesh, segmenting, quiet(task, task.threads));
-    if (regions.empty()) return fit;
-    fit.regions = regions.size();
-    task.report(0.2, "rounding quadrics");
-    quantise_regions(mesh, regions, options, fit, quiet(task, task.threads));
-    task.report(0.5, "sampling sides");
+    fit.regions = find_regions(mesh, bvh, options, quiet(task, task.threads));
+    if (fit.regions.empty()) return fit;
+    fit.whole = share_of_whole(fit.regions);
+    refit_set_tree(fit, mesh, bvh, options, part_of(task, 0.2, 1));
+    return fit;
+}
+
+void refit_set_tree(TreeFit& fit, const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOptions& options,
+                    const Task& task) {
+    task.report(0, "rounding quadrics");
+    quantise_regions(mesh, fit.regions, options, fit, quiet(task, task.threads));
+    task.report(0.4, "sampling sides");
     const SignedDistance distance(mesh, bvh);
     const SampleOptions sampling{options.tolerance * options.tube_share,
-                                 sample_count(effort_of(options.effort), fit.quadrics.size()), options.seed};
+                                 sample_count(effort_of(options.effort), fit), options.seed};
     fit.samples =
         sample_sides(mesh, distance, fit.tree.box(), fit.patches, sampling, quiet(task, task.threads));
-    task.report(0.6, "building the tree");
+    task.report(0.5, "building the tree");
     build(fit, options, quiet(task, task.threads));
     task.report(1, "building the tree");
-    return fit;
 }
 
 void repair_set_tree(TreeFit& fit, const Bvh& bvh, std::span<const KnownSide> points, const Task& task) {

@@ -5,6 +5,7 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/fit/tree_builder.h"
+#include "pfgeom/fit/whole_checks.h"
 #include "pfgeom/function/set_tree.h"
 #include "pfgeom/mesh/bvh.h"
 
@@ -21,6 +22,7 @@ struct TreeFitOptions {
     double tube_share = 0.97;         ///< from what distance on the side of a point counts
     std::size_t most_regions = 1000;  ///< a shape with more is for another representation
     int effort = 1;                   ///< 0 fast, 1 normal, 2 best
+    std::vector<Spot> held;           ///< around these, whole quadrics move by so much less
     std::uint64_t seed = 1;
 };
 
@@ -28,7 +30,10 @@ struct TreeFitOptions {
 struct TreeFit {
     SetTree tree;
     double bits = 0;  ///< estimate of the tree's code
-    std::size_t regions = 0;
+    std::vector<Region> regions;
+    double whole = 0;  ///< share of the surface that whole quadrics serve
+    /// Then few samples do, and one setting: there are hardly any seams.
+    bool mostly_whole() const { return whole >= 0.9; }
 
     RawTree raw;
     std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not
@@ -47,6 +52,10 @@ struct KnownSide {
 /// falls into too many regions.
 TreeFit fit_set_tree(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOptions& options,
                      const Task& task = {});
+
+/// The same regions once more, with other shares of the tolerance or other points held.
+void refit_set_tree(TreeFit& fit, const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOptions& options,
+                    const Task& task = {});
 
 /// Adds points outside the tube; grows the leaves that they contradict.
 void repair_set_tree(TreeFit& fit, const Bvh& bvh, std::span<const KnownSide> points, const Task& task = {});

@@ -2,6 +2,7 @@
 
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/fit/tree_cell.h"
+#include "pfgeom/fit/tree_peel.h"
 
 #include <algorithm>
 #include <utility>
@@ -16,7 +17,7 @@ constexpr double kKnownBits = 4, kStrangeBits = 6.5;  // again, where it has a p
 constexpr double kForcedBits = 100;
 constexpr std::size_t kMostRegrown =
     64;  // nodes of a mended subtree that is tried afresh: a tenth fewer bytes
-constexpr int kMostDepth = 100;
+constexpr int kMostDepth = 100, kMostPeeled = 90;
 
 using Members = std::vector<std::int32_t>;
 using Nodes = std::vector<TreeNode>;
@@ -63,6 +64,8 @@ class Builder {
     double grow(Members members, const Box& box, int depth, Nodes* nodes, int tried);
     double grow_sides(const Question& question, Members members, const Box& box, int depth, Nodes* nodes,
                       int tried);
+    Question ask(std::int32_t quadric, bool here) const;
+    std::int32_t peeled(const Members& members, int depth) const;
     std::vector<Question> best_questions(const TreeCell& cell, const Box& box, std::size_t most) const;
     const Question& cheapest(const std::vector<Question>& questions, const TreeCell& cell, const Box& box,
                              int depth);
@@ -164,11 +167,7 @@ std::vector<Question> Builder::best_questions(const TreeCell& cell, const Box& b
     Shortlist list(cell, most);
     for (std::size_t q = 0; q < quadrics_.size(); ++q) {
         if (asked_[q] != 0 || (here[q] == 0 && known_[q] == 0)) continue;
-        Question question;
-        question.node.kind = TreeNode::Kind::ask;
-        question.node.quadric = static_cast<std::int32_t>(q);
-        question.bits = known_[q] == 0 ? kNewBits : here[q] != 0 ? kKnownBits : kStrangeBits;
-        list.offer(question);
+        list.offer(ask(static_cast<std::int32_t>(q), here[q] != 0));
     }
     offer_cuts(cell.bounds(), box, list);
     return list.take();
@@ -221,6 +220,20 @@ const Question& Builder::cheapest(const std::vector<Question>& questions, const 
     return *best;
 }
 
+std::int32_t Builder::peeled(const Members& members, int depth) const {
+    return options_.peel && depth < kMostPeeled ? peeled_quadric(samples_, members, asked_) : -1;
+}
+
+Question Builder::ask(std::int32_t quadric, bool here) const {
+    Question question;
+    question.node.kind = TreeNode::Kind::ask;
+    question.node.quadric = quadric;
+    question.bits = known_[static_cast<std::size_t>(quadric)] == 0 ? kNewBits
+                    : here                                         ? kKnownBits
+                                                                   : kStrangeBits;
+    return question;
+}
+
 double Builder::grow(Members members, const Box& box, int depth, Nodes* nodes, int tried) {
     task_.check();
     if (nodes) nodes->emplace_back();
@@ -232,7 +245,9 @@ double Builder::grow(Members members, const Box& box, int depth, Nodes* nodes, i
     };
     if (inside == 0 || inside == members.size()) return leaf(kLeafBits);
     Question question;
-    {
+    if (const std::int32_t q = peeled(members, depth); q >= 0) {
+        question = ask(q, true);
+    } else {
         const TreeCell cell(samples_, members, options_);
         const bool look_ahead = cell.patches() <= options_.most_tried;
         const std::vector<Question> best =

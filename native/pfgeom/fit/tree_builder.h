@@ -44,6 +44,7 @@ struct BuildOptions {
     int cap = 48;                 ///< samples looked at of each patch and label in a cell
     int tried = 1;                ///< so many questions of a cell are tried to the end
     std::size_t most_tried = 64;  ///< unless it has more patches than this
+    bool peel = false;            ///< questions with one answer (fit/tree_peel.h) come before all others
 };
 
 /// A tree whose questions count quadrics as the builder was given them.

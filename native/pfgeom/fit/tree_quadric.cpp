@@ -83,7 +83,8 @@ double integer_bits(std::int32_t n) {
 }
 
 bool passes_point(const Quadric& q, const CheckPoint& check) {
-    return surface_distance(q, check.point) <= check.limit;
+    if (check.kind == CheckPoint::Kind::near) return surface_distance(q, check.point) <= check.limit;
+    return (q.value(check.point) >= 0) == (check.kind == CheckPoint::Kind::positive);
 }
 
 double head_bits(FamilyKind kind) {

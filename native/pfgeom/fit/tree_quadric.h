@@ -8,6 +8,7 @@
 #include "pfgeom/function/set_tree.h"
 #include "pfgeom/segment/power_sums.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,11 @@ namespace pfgeom {
 
 /// A point of the surface and how far the quadric may pass from it.
 struct CheckPoint {
+    /// near: within `limit`, to first order; else the quadric must be positive or negative at the point.
+    enum class Kind : std::uint8_t { near, positive, negative };
     Vec3 point;
     double limit = 0;
+    Kind kind = Kind::near;
 };
 
 struct QuantisedQuadric {

@@ -43,20 +43,25 @@ class Cutting {
 
     // In rounds, each cell asking for one cut in each: no cell runs ahead.
     void run() {
-        std::vector<Tetrahedron> open = std::move(cells_.cells), done;
+        std::vector<Tetrahedron> open = std::move(cells_.cells);
+        std::vector<Tetrahedron>& done = cells_.cells = {};
         for (int round = 0; !open.empty(); ++round) {
-            open = matched(open);
+            match(open);
             if (open.size() + done.size() > max_cells_)
                 throw LimitExceeded("polygonize: more than max_cells = " + std::to_string(max_cells_) +
                                     " cells");
-            std::vector<Tetrahedron> still_open;
+            auto kept = open.begin();
             for (std::size_t i = 0; i < open.size(); ++i) {
                 if (i % 256 == 0) task_.check();
-                (advance(open[i], round < kRounds) ? done : still_open).push_back(open[i]);
+                Tetrahedron t = open[i];
+                if (advance(t, round < kRounds))
+                    done.push_back(t);
+                else
+                    *kept++ = t;
             }
-            open = std::move(still_open);
+            open.erase(kept, open.end());
         }
-        cells_.cells = matched(done);
+        match(done);
     }
 
   private:
@@ -68,7 +73,7 @@ class Cutting {
         bool high = false, low = false;
     };
 
-    std::vector<Tetrahedron> matched(const std::vector<Tetrahedron>& cells) const;
+    void match(std::vector<Tetrahedron>& cells) const;
     bool cut_where_cut(const Tetrahedron& t, std::vector<Tetrahedron>& pieces) const;
     bool advance(Tetrahedron& t, bool may_cut);
     void cut(const Tetrahedron& t, std::int32_t question);
@@ -89,18 +94,25 @@ class Cutting {
     std::vector<Known> known_;
 };
 
-// The pieces of the cells, cut wherever an edge of theirs has been.
-std::vector<Tetrahedron> Cutting::matched(const std::vector<Tetrahedron>& cells) const {
-    std::vector<Tetrahedron> all, pieces;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+// Cuts the cells wherever an edge of theirs has been: one piece stays in place, the others go to the end. A
+// second list would be the most memory that polygonizing takes.
+void Cutting::match(std::vector<Tetrahedron>& cells) const {
+    std::vector<Tetrahedron> pieces;
+    const std::size_t count = cells.size();
+    for (std::size_t i = 0; i < count; ++i) {
         if (i % 256 == 0) task_.check();
+        bool placed = false;
         for (pieces.assign(1, cells[i]); !pieces.empty();) {
             const Tetrahedron t = pieces.back();
             pieces.pop_back();
-            if (!cut_where_cut(t, pieces)) all.push_back(t);
+            if (cut_where_cut(t, pieces)) continue;
+            if (placed)
+                cells.push_back(t);
+            else
+                cells[i] = t;
+            placed = true;
         }
     }
-    return all;
 }
 
 // Follows the oldest cut at an edge: then both tetrahedra at a face cut it in the same order.

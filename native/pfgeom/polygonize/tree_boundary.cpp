@@ -25,20 +25,12 @@ class Boundary {
     }
 
     TreeBoundary run() {
-        const std::vector<CellFace> faces = sorted_faces();
-        for (std::size_t i = 0, next; i < faces.size(); i = next) {
-            if (i % 1024 == 0) task_.check();
-            const bool matched = i + 1 < faces.size() && faces[i + 1].sorted == faces[i].sorted;
-            next = i + (matched ? 2 : 1);
-            const std::int32_t node = cells_.cells[faces[i].cell].node;
-            const std::int32_t beyond = matched ? cells_.cells[faces[i + 1].cell].node : node_at(faces[i]);
-            if (inside(node) == inside(beyond)) continue;
-            if (inside(node))
-                add(faces[i], node, beyond, false);
-            else if (matched)
-                add(faces[i + 1], beyond, node, false);
-            else
-                add(faces[i], beyond, node, true);
+        group_cells();
+        std::vector<CellFace> faces;
+        for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
+            if (v % 256 == 0) task_.check();
+            collect_faces(static_cast<std::int32_t>(v), faces);
+            add_border(faces);
         }
         out_.position = std::move(cells_.position);
         return std::move(out_);
@@ -47,7 +39,9 @@ class Boundary {
   private:
     void name_labels();
     bool inside(std::int32_t node) const { return tree_.whole()[node].inside; }
-    std::vector<CellFace> sorted_faces() const;
+    void group_cells();
+    void collect_faces(std::int32_t vertex, std::vector<CellFace>& faces) const;
+    void add_border(const std::vector<CellFace>& faces);
     std::int32_t node_at(const CellFace& face) const;
     void add(const CellFace& face, std::int32_t in, std::int32_t out, bool turned);
     Label label_of(const Triangle& face, std::int32_t in, std::int32_t out) const;
@@ -56,6 +50,10 @@ class Boundary {
     const TreePruner& tree_;
     TreeCells cells_;
     const Task& task_;
+    // Each cell at the lowest and at the second lowest of its vertices: the lowest of a face is one of the
+    // two.
+    std::vector<std::size_t> first_;  // by vertex, in grouped_
+    std::vector<std::int32_t> grouped_;
     std::vector<std::int32_t> parent_;  // by node
     std::vector<Label> label_;          // by question: of its high side
     TreeBoundary out_;
@@ -76,33 +74,57 @@ void Boundary::name_labels() {
     }
 }
 
-// Equal faces stand together: listed by their lowest vertex (counting sort), then sorted within each list.
-std::vector<CellFace> Boundary::sorted_faces() const {
-    const auto face_of = [this](std::size_t c, std::int32_t i) {
-        CellFace face{.cell = static_cast<std::int32_t>(c), .opposite = i};
-        for (std::size_t k = 0; k < 3; ++k) face.sorted[k] = cells_.cells[c].vertex[kTetrahedronFaces[i][k]];
-        std::sort(face.sorted.begin(), face.sorted.end());
-        return face;
-    };
-    const auto for_each_face = [&](const auto& use) {
+void Boundary::group_cells() {
+    const auto for_each = [&](const auto& use) {
         for (std::size_t c = 0; c < cells_.cells.size(); ++c) {
             if (c % 4096 == 0) task_.check();
-            for (std::int32_t i = 0; i < 4; ++i) use(face_of(c, i));
+            std::array<std::int32_t, 4> v = cells_.cells[c].vertex;
+            std::partial_sort(v.begin(), v.begin() + 2, v.end());
+            use(v[0], static_cast<std::int32_t>(c));
+            use(v[1], static_cast<std::int32_t>(c));
         }
     };
-    std::vector<std::size_t> first(cells_.position.size() + 1, 0);
-    for_each_face([&](const CellFace& face) { ++first[face.sorted[0] + 1]; });
-    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-    std::vector<CellFace> faces(4 * cells_.cells.size());
-    std::vector<std::size_t> next = first;
-    for_each_face([&](const CellFace& face) { faces[next[face.sorted[0]]++] = face; });
-    for (std::size_t v = 0; v + 1 < first.size(); ++v)
-        std::sort(faces.begin() + static_cast<std::ptrdiff_t>(first[v]),
-                  faces.begin() + static_cast<std::ptrdiff_t>(first[v + 1]),
-                  [](const CellFace& a, const CellFace& b) {
-                      return a.sorted != b.sorted ? a.sorted < b.sorted : a.cell < b.cell;
-                  });
-    return faces;
+    first_.assign(cells_.position.size() + 1, 0);
+    for_each([&](std::int32_t v, std::int32_t) { ++first_[v + 1]; });
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    grouped_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for_each([&](std::int32_t v, std::int32_t c) { grouped_[next[v]++] = c; });
+}
+
+// Those whose lowest vertex it is, equal ones side by side.
+void Boundary::collect_faces(std::int32_t vertex, std::vector<CellFace>& faces) const {
+    faces.clear();
+    for (std::size_t k = first_[vertex]; k < first_[vertex + 1]; ++k) {
+        const std::int32_t cell = grouped_[k];
+        for (std::int32_t i = 0; i < 4; ++i) {
+            CellFace face{.cell = cell, .opposite = i};
+            for (std::size_t n = 0; n < 3; ++n)
+                face.sorted[n] = cells_.cells[cell].vertex[kTetrahedronFaces[i][n]];
+            std::sort(face.sorted.begin(), face.sorted.end());
+            if (face.sorted[0] == vertex) faces.push_back(face);
+        }
+    }
+    std::sort(faces.begin(), faces.end(), [](const CellFace& a, const CellFace& b) {
+        return a.sorted != b.sorted ? a.sorted < b.sorted : a.cell < b.cell;
+    });
+}
+
+// Of equal faces, those between inside and outside.
+void Boundary::add_border(const std::vector<CellFace>& faces) {
+    for (std::size_t i = 0, next; i < faces.size(); i = next) {
+        const bool matched = i + 1 < faces.size() && faces[i + 1].sorted == faces[i].sorted;
+        next = i + (matched ? 2 : 1);
+        const std::int32_t node = cells_.cells[faces[i].cell].node;
+        const std::int32_t beyond = matched ? cells_.cells[faces[i + 1].cell].node : node_at(faces[i]);
+        if (inside(node) == inside(beyond)) continue;
+        if (inside(node))
+            add(faces[i], node, beyond, false);
+        else if (matched)
+            add(faces[i + 1], beyond, node, false);
+        else
+            add(faces[i], beyond, node, true);
+    }
 }
 
 // The leaf beyond a face without a second cell: the tree says the same all over there.

@@ -21,11 +21,24 @@ namespace {
 constexpr double kMargin = 1.0 / 64;
 constexpr double kRounding = 1e-13;  // of values, relative to the sum of the coefficients' sizes
 
+constexpr double kMostOff = 3.0 / 8;  // of the largest second difference
+// Share of a cell's longest edge that a quadric may be off its linear function by: then edges are no longer
+// than half of the way between two sheets of it. 0.15: twice as many cells at a plate whose two faces are one
+// quadric; 0.3: no fewer.
+constexpr double kFold = 0.2;
+
 // e·A·e of the quadric's second-degree part.
 double bend(const Quadric& q, const Vec3& e) {
     const auto& c = q.c;
     return (c[0] * e.x * e.x + c[1] * e.y * e.y + c[2] * e.z * e.z) +
            (c[3] * e.x * e.y + c[4] * e.x * e.z + c[5] * e.y * e.z);
+}
+
+// Of q where the line through p along its gradient meets its zero set, which is the better of two where p
+// lies between the two; at p if it does not.
+double slope_at_zero(const Quadric& q, const Vec3& p, const Vec3& gradient, const Vec3& normal) {
+    const double square = squared_norm(gradient), there = square - 4 * bend(q, normal) * q.value(p);
+    return std::sqrt(there > 0 ? there : square);
 }
 
 enum class Side : std::int8_t { outside, inside, both };
@@ -188,11 +201,24 @@ int Refinement::side(std::int32_t question, const std::array<Vec3, 4>& p, double
     return lo > slack ? 1 : hi < -slack ? -1 : 0;
 }
 
-// From the linear function through the corners' values: the sum of λi λj d over the edges, at most 3/8 of the
-// largest second difference d. As a distance, by the slope in the middle.
+// Of the zero set from the plane through its cuts, as a distance: from the linear function through the
+// corners' values a quadric is off by the sum of λi λj d over the edges, at most 3/8 of the largest second
+// difference d; and what it bends by along its gradient leaves the zero set as it is, as long as the gradient
+// does not turn round (the two faces of a plate are one quadric that is flat on each and folds between them).
 double Refinement::deviation_of(std::int32_t question, const std::array<Vec3, 4>& p, double bent) const {
-    const double slope = norm(tree_.quadric(question).gradient((p[0] + p[1] + p[2] + p[3]) / 4));
-    return bent == 0 ? 0 : 0.375 * bent / slope;
+    if (bent == 0) return 0;
+    const Quadric& q = tree_.quadric(question);
+    const Vec3 centre = (p[0] + p[1] + p[2] + p[3]) / 4, gradient = q.gradient(centre);
+    const Vec3 normal = normalized(gradient);
+    const double slope = slope_at_zero(q, centre, gradient, normal);
+    double longest = 0, across = 0;
+    for (const auto& [a, b] : kTetrahedronEdges) {
+        const Vec3 e = p[b] - p[a];
+        longest = std::max(longest, squared_norm(e));
+        across = std::max(across, std::abs(bend(q, e - normal * dot(e, normal))));
+    }
+    const double all = kMostOff * bent / slope;
+    return all < kFold * std::sqrt(longest) ? kMostOff * across / slope : all;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // tangent at the last one (sequential quadratic programming without curvature).
 #include "pfgeom/report/tree_bound_ball.h"
 
+#include "pfgeom/mesh/bvh.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +14,7 @@ namespace {
 constexpr std::size_t kQuadrics = 7;  // at most so many are combined: 63 intersections
 constexpr int kSteps = 6;
 constexpr double kAround = 1.0 / 64;  // of the ball: how far from a closest point the other label is sought
+constexpr double kLonger = 8;         // then so many times as far, along the way out of a crevice
 constexpr double kDamping = 1e-9;
 
 const std::array<Vec3, 26>& directions() {
@@ -69,6 +72,16 @@ Vec3 closest_on(std::span<const Quadric* const> quadrics, const Vec3& centre) {
     return p;
 }
 
+// The direction in which the one of the quadrics that rises least rises most; against it they all fall. In a
+// crevice between ellipsoids there is hardly another way out. It leads to the point closest to the origin on
+// the hull of the unit gradients.
+Vec3 common_rise(std::span<const Quadric* const> quadrics, const Vec3& p) {
+    std::array<Vec3, 3> g;
+    for (std::size_t i = 0; i < 3; ++i)
+        g[i] = normalized(quadrics[std::min(i, quadrics.size() - 1)]->gradient(p));
+    return normalized(closest_point_on_triangle({}, g[0], g[1], g[2]));
+}
+
 std::vector<const Quadric*> quadrics_of(const TreePruner& pruner, const PrunedTree& tree) {
     std::vector<std::int32_t> questions;
     for (const PrunedNode& node : tree) {
@@ -101,13 +114,16 @@ bool label_changes_within(const TreePruner& pruner, const PrunedTree& tree, cons
 
 bool label_changes_near_quadrics(const TreePruner& pruner, const PrunedTree& tree, const Ball& ball) {
     const bool label = pruner.contains(tree, ball.centre);
-    const auto differs_around = [&](const Vec3& p) {
-        const double distance = norm(p - ball.centre);
-        const double around = std::min(kAround * ball.radius, ball.radius - distance);
+    const auto differs_at = [&](const Vec3& p) { return pruner.contains(tree, p) != label; };
+    const auto differs_around = [&](const Vec3& p, const Vec3& along) {
+        const double room = ball.radius - norm(p - ball.centre),
+                     around = std::min(kAround * ball.radius, room);
         if (!(around > 0)) return false;
-        return std::any_of(directions().begin(), directions().end(), [&](const Vec3& direction) {
-            return pruner.contains(tree, p + direction * around) != label;
-        });
+        for (double step = around; step <= room; step *= kLonger) {
+            if (differs_at(p + along * step) || differs_at(p - along * step)) return true;
+        }
+        return std::any_of(directions().begin(), directions().end(),
+                           [&](const Vec3& direction) { return differs_at(p + direction * around); });
     };
     const std::vector<const Quadric*> all = quadrics_of(pruner, tree);
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -116,7 +132,8 @@ bool label_changes_near_quadrics(const TreePruner& pruner, const PrunedTree& tre
                 if (i == j && j != k) continue;
                 const std::array<const Quadric*, 3> chosen{all[i], all[j == i ? k : j], all[k]};
                 const std::size_t size = i == k ? 1 : j == k ? 2 : 3;
-                if (differs_around(closest_on(std::span(chosen).first(size), ball.centre))) return true;
+                const Vec3 p = closest_on(std::span(chosen).first(size), ball.centre);
+                if (differs_around(p, common_rise(std::span(chosen).first(size), p))) return true;
             }
     return false;
 }

@@ -4,6 +4,7 @@
 
 #include "pfgeom/mesh/edges.h"
 #include "pfgeom/mesh/sample.h"
+#include "pfgeom/segment/ellipsoid.h"
 #include "pfgeom/segment/power_sums.h"
 #include "pfgeom/segment/region_set.h"
 
@@ -16,10 +17,11 @@ namespace pfgeom {
 namespace {
 
 constexpr double kExact = 2e-6;         // of the diagonal: single precision, or six digits of text
-constexpr std::size_t kSeedSize = 24;   // vertices of a seed; nine would fit any quadric
+constexpr std::size_t kSeedSize = 14;   // vertices of a seed; nine would fit any quadric
 constexpr std::size_t kLeastSize = 40;  // of a patch worth having
 constexpr double kFlat = 1e-3;          // height of a flat seed, of its radius
 constexpr double kAligned = 0.9;        // cosine between gradient and vertex normal
+constexpr int kMostLooks = 500;         // at all vertices
 constexpr double kRefit = 1.5;          // growth after which the quadric is solved again
 
 // A quadric through the points of a patch, in a frame in which the patch fills the unit ball: there its
@@ -34,6 +36,17 @@ struct LocalQuadric {
         return radius * std::abs(quadric.value(x)) / std::max(norm(quadric.gradient(x)), 1e-9);
     }
     Vec3 inwards(const Vec3& p) const { return quadric.gradient((p - centre) / radius); }
+
+    // In the frame of the points: q((p - centre) / radius), times radius.
+    Quadric in_the_large() const {
+        Quadric q = quadric;
+        for (std::size_t i = 0; i < 6; ++i) q.c[i] /= radius;
+        const Quadric squares{{q.c[0], q.c[1], q.c[2], q.c[3], q.c[4], q.c[5]}};
+        const Vec3 slope = squares.gradient(centre), linear{q.c[6], q.c[7], q.c[8]};
+        for (int axis = 0; axis < 3; ++axis) q.c[static_cast<std::size_t>(6 + axis)] -= slope[axis];
+        q.c[9] = radius * q.c[9] - dot(linear, centre) + squares.value(centre);
+        return q;
+    }
 };
 
 class PatchFinder {
@@ -60,19 +73,20 @@ class PatchFinder {
         });
     }
 
-    std::vector<std::vector<std::int32_t>> run(const Task& task) {
+    std::vector<ExactPatch> run(const Task& task) {
         for (std::size_t v = 0; v < patch_.size(); ++v) {
             task.check();
             if (patch_[v] == kFree && tried_[v] == 0) try_seed(static_cast<std::int32_t>(v));
         }
-        std::vector<std::vector<std::int32_t>> groups(static_cast<std::size_t>(patches_));
+        std::vector<ExactPatch> found(quadrics_.size());
+        for (std::size_t i = 0; i < found.size(); ++i) found[i].quadric = quadrics_[i].in_the_large();
         for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
             const auto& [a, b, c] = mesh_.faces[f];
             if (patch_[a] != kFree && patch_[a] == patch_[b] && patch_[b] == patch_[c])
-                groups[static_cast<std::size_t>(patch_[a])].push_back(static_cast<std::int32_t>(f));
+                found[static_cast<std::size_t>(patch_[a])].faces.push_back(static_cast<std::int32_t>(f));
         }
-        std::erase_if(groups, [](const auto& group) { return group.empty(); });
-        return groups;
+        std::erase_if(found, [](const ExactPatch& patch) { return patch.faces.empty(); });
+        return found;
     }
 
   private:
@@ -93,26 +107,49 @@ class PatchFinder {
         if (members.size() < kSeedSize || is_flat(members)) return;
         std::optional<LocalQuadric> q = fit(members);
         if (!q || !grow(members, *q)) return;
-        for (const std::int32_t v : members) patch_[v] = patches_;
-        ++patches_;
+        for (const std::int32_t v : members) patch_[v] = static_cast<std::int32_t>(quadrics_.size());
+        quadrics_.push_back(*q);
     }
 
-    // Adds vertices that lie on the quadric, from the seed outwards. False if the patch stays small.
-    bool grow(std::vector<std::int32_t>& members, LocalQuadric q) {
+    // Adds vertices that lie on the quadric, from the seed outwards; solves it again with them. False if the
+    // patch stays small.
+    bool grow(std::vector<std::int32_t>& members, LocalQuadric& q) {
+        for (;;) {
+            const std::size_t solved = members.size();
+            walk(members, q, static_cast<std::size_t>(kRefit * static_cast<double>(solved)));
+            const bool around = members.size() == solved;
+            if (around) look_around(members, q);
+            if (members.size() == solved) break;
+            if (const std::optional<LocalQuadric> better = fit(members)) {
+                q = *better;
+            } else if (around) {
+                members.resize(solved);
+                break;
+            } else {
+                return false;
+            }
+        }
+        return members.size() >= kLeastSize;
+    }
+
+    // Other surfaces cut an ellipsoid into pieces, each too small to be worth having: those apart as well.
+    void look_around(std::vector<std::int32_t>& members, const LocalQuadric& q) {
+        if (looks_left_ == 0 || !ellipsoid_of(q.quadric)) return;
+        --looks_left_;
+        for (std::int32_t v = 0; v < static_cast<std::int32_t>(patch_.size()); ++v) {
+            if (patch_[v] == kFree && mark_[v] != walk_ && lies_on(q, v)) members.push_back(v);
+        }
+    }
+
+    // Adds vertices around the members until there are so many, or no more.
+    void walk(std::vector<std::int32_t>& members, const LocalQuadric& q, std::size_t enough) {
         begin_walk(members[0]);
         for (const std::int32_t v : members) mark_[v] = walk_;
-        std::size_t refit_at = static_cast<std::size_t>(kRefit * static_cast<double>(members.size()));
-        for (std::size_t i = 0; i < members.size(); ++i) {
+        for (std::size_t i = 0; i < members.size() && members.size() < enough; ++i) {
             visit_neighbours(members[i], [&](std::int32_t v) {
                 if (lies_on(q, v)) members.push_back(v);
             });
-            if (members.size() < refit_at) continue;
-            refit_at = static_cast<std::size_t>(kRefit * static_cast<double>(members.size()));
-            const std::optional<LocalQuadric> better = fit(members);
-            if (!better) return false;
-            q = *better;
         }
-        return members.size() >= kLeastSize;
     }
 
     bool lies_on(const LocalQuadric& q, std::int32_t v) const {
@@ -167,12 +204,14 @@ class PatchFinder {
     std::vector<std::int32_t> patch_;  // of each vertex, or kFree
     std::vector<char> tried_;          // as a seed, or next to one
     std::vector<std::int32_t> mark_;   // the last walk that saw it
-    std::int32_t walk_ = 0, patches_ = 0;
+    std::int32_t walk_ = 0;
+    int looks_left_ = kMostLooks;
+    std::vector<LocalQuadric> quadrics_;  // of the patches
 };
 
 }  // namespace
 
-std::vector<std::vector<std::int32_t>> find_exact_patches(const TriangleMesh& mesh, const Task& task) {
+std::vector<ExactPatch> find_exact_patches(const TriangleMesh& mesh, const Task& task) {
     return PatchFinder(mesh).run(task);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "pfgeom/base/task.h"
+#include "pfgeom/function/quadric.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
 #include <cstdint>
@@ -11,8 +12,12 @@
 
 namespace pfgeom {
 
-/// Disjoint groups of faces, rising in each. Flat ones are left to the merging of faces, which needs no
-/// evidence.
-std::vector<std::vector<std::int32_t>> find_exact_patches(const TriangleMesh& mesh, const Task& task = {});
+struct ExactPatch {
+    std::vector<std::int32_t> faces;  ///< rising
+    Quadric quadric;                  ///< of their vertices; positive inside
+};
+
+/// Disjoint. Flat ones are left to the merging of faces, which needs no evidence.
+std::vector<ExactPatch> find_exact_patches(const TriangleMesh& mesh, const Task& task = {});
 
 }  // namespace pfgeom

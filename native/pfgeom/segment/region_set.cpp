@@ -60,6 +60,7 @@ RegionSet::RegionSet(const TriangleMesh& mesh, double tolerance)
 }
 
 std::optional<double> RegionSet::cost(std::int32_t a, std::int32_t b) const {
+    if (regions_[a].whole || regions_[b].whole) return {};
     PowerSums sums = regions_[a].sums;
     sums += regions_[b].sums;
     const QuadricSystem system = sums.system();
@@ -150,18 +151,32 @@ void RegionSet::refine_all(const Task& task) {
     });
 }
 
-bool RegionSet::unite(const std::vector<std::int32_t>& faces) {
-    Region whole;
-    whole.faces = faces;
+Region RegionSet::sum_of(const std::vector<std::int32_t>& faces) const {
+    Region sum;
+    sum.faces = faces;
     for (const std::int32_t f : faces) {
-        whole.sums += regions_[f].sums;
-        whole.area += regions_[f].area;
+        sum.sums += regions_[f].sums;
+        sum.area += regions_[f].area;
     }
-    whole.quadric = whole.sums.system().solve(normal_weight_);
-    if (!serves(whole.quadric, whole)) return false;
+    sum.quadric = sum.sums.system().solve(normal_weight_);
+    return sum;
+}
+
+bool RegionSet::unite(const std::vector<std::int32_t>& faces) {
+    Region all = sum_of(faces);
+    if (!serves(all.quadric, all)) return false;
     for (const std::int32_t f : faces) regions_[f] = {};
-    regions_[faces[0]] = std::move(whole);
+    regions_[faces[0]] = std::move(all);
     return true;
+}
+
+void RegionSet::unite(const WholeQuadric& whole) {
+    Region all = sum_of(whole.faces);
+    if (!serves(all.quadric, all)) all.quadric = whole.quadric;
+    all.whole = true;
+    all.hidden = whole.hidden;
+    for (const std::int32_t f : whole.faces) regions_[f] = {};
+    regions_[whole.faces[0]] = std::move(all);
 }
 
 std::vector<Region> RegionSet::take() {

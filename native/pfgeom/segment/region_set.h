@@ -33,12 +33,18 @@ class RegionSet {
     /// Makes one region, with the lowest number, of these faces that are regions of their own, if one quadric
     /// serves them all. `faces` rise.
     bool unite(const std::vector<std::int32_t>& faces);
+    /// Makes one region, that is never merged, of the quadric's faces, which are regions of their own.
+    void unite(const WholeQuadric& whole);
 
     std::size_t size(std::int32_t region) const { return regions_[region].faces.size(); }
     double area(std::int32_t region) const { return regions_[region].area; }
+    bool merges(std::int32_t region) const {
+        return !regions_[region].faces.empty() && !regions_[region].whole;
+    }
     std::vector<Region> take();  ///< those with faces, by falling area
 
   private:
+    Region sum_of(const std::vector<std::int32_t>& faces) const;
     bool serves(const Quadric& q, const Region& region) const;
     double worst_error(const Quadric& q, const Region& region) const;
     void refine(Region& region, double enough) const;

@@ -122,14 +122,19 @@ void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_
 std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& options, const Task& task) {
     RegionSet regions(mesh, options.tolerance);
     UnionFind roots(mesh.faces.size());
-    for (const auto& faces : find_exact_patches(mesh, task)) {
-        if (!regions.unite(faces)) continue;
-        for (const std::int32_t f : faces) roots.join(faces[0], f);
+    for (const WholeQuadric& whole : options.whole) {
+        regions.unite(whole);
+        for (const std::int32_t f : whole.faces) roots.join(whole.faces[0], f);
+    }
+    for (const auto& patch : find_exact_patches(mesh, task)) {
+        const auto taken = [&](std::int32_t f) { return regions.size(f) != 1 || !regions.merges(f); };
+        if (std::ranges::any_of(patch.faces, taken) || !regions.unite(patch.faces)) continue;
+        for (const std::int32_t f : patch.faces) roots.join(patch.faces[0], f);
     }
     merge_neighbours(mesh, regions, roots, task);
     std::vector<std::int32_t> alive;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        if (regions.size(static_cast<std::int32_t>(f)) > 0) alive.push_back(static_cast<std::int32_t>(f));
+        if (regions.merges(static_cast<std::int32_t>(f))) alive.push_back(static_cast<std::int32_t>(f));
     }
     if (alive.size() / kMostJoined > options.most_regions) return {};
     merge_apart(regions, std::move(alive), options.hosts, task);

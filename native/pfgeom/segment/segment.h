@@ -4,8 +4,10 @@
 #include "pfgeom/base/task.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 #include "pfgeom/segment/power_sums.h"
+#include "pfgeom/segment/whole_quadrics.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pfgeom {
@@ -14,13 +16,16 @@ struct Region {
     std::vector<std::int32_t> faces;  ///< rows of the mesh's faces, rising; not always connected
     PowerSums sums;                   ///< of the faces, those weighted that the quadric misses most
     double area = 0;
-    Quadric quadric;  ///< positive inside; serves all check points of the faces
+    Quadric quadric;                  ///< positive inside; serves all check points of the faces
+    bool whole = false;               ///< a whole quadric's
+    std::vector<HiddenPoint> hidden;  ///< of that
 };
 
 struct SegmentOptions {
     double tolerance = 0;  ///< of the check points, a distance
     std::size_t most_regions = static_cast<std::size_t>(-1);
     std::size_t hosts = 400;  ///< so many largest regions are tried against all others that lie apart
+    std::span<const WholeQuadric> whole;  ///< regions from the beginning, never merged
 };
 
 /// Nothing if there are more than options.most_regions. Regions by falling area: neighbours merged best

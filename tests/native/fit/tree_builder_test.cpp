@@ -71,6 +71,32 @@ TEST(TreeBuilder, SeparatesParallelSheetsThatNoQuestionGainsOn) {
     EXPECT_LE(tree.nodes.size(), 11U);
 }
 
+TEST(TreeBuilder, AUnionIsAChainOfItsParts) {
+    // Balls in a ring, each of which crosses its neighbours.
+    constexpr int kBalls = 12;
+    std::vector<QuantisedQuadric> balls;
+    std::vector<Vec3> centres;
+    for (int i = 0; i < kBalls; ++i) {
+        const auto [c, s] = shapes::on_circle(static_cast<double>(i) / kBalls);
+        centres.push_back({0.6 * c, 0.6 * s, 0});
+        balls.push_back(as_candidate({{-1, -1, -1, 0, 0, 0, 1.2 * c, 1.2 * s, 0, 0.0625 - 0.36}}, 20));
+    }
+    const auto ring = [&](const Vec3& p) {
+        std::pair<double, std::int32_t> nearest{-2, 0};
+        for (std::int32_t i = 0; i < kBalls; ++i)
+            nearest = std::max(nearest, {0.25 - norm(p - centres[static_cast<std::size_t>(i)]), i});
+        return nearest;
+    };
+    const auto samples = samples_of(20000, ring);
+    const SampleTable table(samples, balls, {});
+    BuildOptions options;
+    options.peel = true;
+    const RawTree tree = build_tree(table, balls, kCube, options, {});
+    EXPECT_EQ(wrong_samples(tree, table), 0U);
+    EXPECT_EQ(tree.nodes.size(), 2U * kBalls + 1);
+    EXPECT_EQ(count_of(tree, TreeNode::Kind::ask), kBalls);
+}
+
 TEST(TreeBuilder, ALongerLookIsNeverMuchWorse) {
     const auto samples = samples_of(5000, cut_ball);
     const SampleTable table(samples, kCutBall, {});

@@ -2,6 +2,7 @@
 
 #include "pfgeom/base/random.h"
 #include "pfgeom/mesh/sample.h"
+#include "pfgeom/report/tree_bound_ball.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -395,6 +396,19 @@ TEST(TreeBound, DoesNotDependOnTheNumberOfThreads) {
         return list;
     };
     EXPECT_EQ(points(a), points(b));
+}
+
+TEST(TreeBound, FindsTheWayOutOfACrevice) {
+    // Two balls that barely overlap: their surfaces meet at 3.6°.
+    constexpr double kApart = 0.9995;
+    const double crease = std::sqrt(1 - kApart * kApart);
+    const SetTree tree = tree_of(two_balls(kApart, 1));
+    const TreePruner pruner(tree);
+    for (const double depth : {0.0005, 0.002, 0.0035}) {
+        const Ball ball{{0, crease - depth, 0}, 0.004};
+        EXPECT_TRUE(label_changes_near_quadrics(pruner, pruner.whole(), ball)) << depth;
+    }
+    EXPECT_FALSE(label_changes_near_quadrics(pruner, pruner.whole(), {{0, crease - 0.005, 0}, 0.004}));
 }
 
 TEST(TreeBound, TooManyCellsAreNoCertificate) {

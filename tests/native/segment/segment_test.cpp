@@ -1,5 +1,6 @@
 #include "pfgeom/segment/segment.h"
 
+#include "pfgeom/segment/ellipsoid.h"
 #include "pfgeom/segment/exact_patches.h"
 #include "pfgeom/segment/region_set.h"
 #include "shapes.h"
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -98,10 +100,46 @@ TEST(ExactPatches, CoverTessellatedQuadrics) {
     const TriangleMesh mesh =
         shapes::joined(shapes::ellipsoid({0.4, 0.3, 0.2}, 3),
                        shapes::translated(shapes::ellipsoid({0.2, 0.3, 0.3}, 3), {1, 0, 0}));
-    const auto groups = find_exact_patches(mesh);
-    ASSERT_EQ(groups.size(), 2U);
-    EXPECT_EQ(groups[0].size(), mesh.faces.size() / 2);
-    EXPECT_EQ(groups[1].size(), mesh.faces.size() / 2);
+    const auto patches = find_exact_patches(mesh);
+    ASSERT_EQ(patches.size(), 2U);
+    for (const ExactPatch& patch : patches) {
+        EXPECT_EQ(patch.faces.size(), mesh.faces.size() / 2);
+        ASSERT_TRUE(ellipsoid_of(patch.quadric));
+        const Vec3 centre = ellipsoid_of(patch.quadric)->centre;
+        EXPECT_NEAR(centre.x, centre.x < 0.5 ? 0 : 1, 1e-6);
+        EXPECT_GT(patch.quadric.value(centre), 0) << "positive inside";
+    }
+}
+
+TEST(ExactPatches, PiecesOfAnEllipsoidAreOne) {
+    // Three rings of an ellipsoid, each too narrow to be worth having.
+    TriangleMesh mesh = shapes::ellipsoid({0.8, 0.5, 0.4}, 3);
+    std::erase_if(mesh.faces, [&](const Triangle& t) {
+        const Vec3 p = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+        return std::abs(p.x) > 0.2 && std::abs(p.x) < 0.65;
+    });
+    const auto patches = find_exact_patches(mesh);
+    ASSERT_EQ(patches.size(), 1U);
+    EXPECT_EQ(patches[0].faces.size(), mesh.faces.size());
+}
+
+TEST(Ellipsoid, PointsLieOnIt) {
+    // Oblique, and negative inside.
+    const Quadric q{{3, 2, 5, 1, -0.5, 0.7, 0.4, -0.6, 0.2, -0.9}};
+    const auto ellipsoid = ellipsoid_of(q);
+    ASSERT_TRUE(ellipsoid);
+    EXPECT_LT(q.value(ellipsoid->centre), 0);
+    EXPECT_LT(norm(q.gradient(ellipsoid->centre)), 1e-14);
+    const auto points = spread_points(*ellipsoid, 4);
+    EXPECT_EQ(points.size(), 96U);
+    for (const Vec3& p : points) EXPECT_NEAR(q.value(p), 0, 1e-14);
+}
+
+TEST(Ellipsoid, IsNothingElse) {
+    EXPECT_FALSE(ellipsoid_of({{-1, -1, 0, 0, 0, 0, 0, 0, 0, 1}})) << "a cylinder";
+    EXPECT_FALSE(ellipsoid_of({{-1, -1, 1, 0, 0, 0, 0, 0, 0, 1}})) << "a hyperboloid";
+    EXPECT_FALSE(ellipsoid_of({{-1, -1, -1, 0, 0, 0, 0, 0, 0, -1}})) << "no point";
+    EXPECT_FALSE(ellipsoid_of({{0, 0, 0, 0, 0, 0, 1, 0, 0, 0}})) << "a plane";
 }
 
 TEST(ExactPatches, AreNotFoundOnFreeForms) {
