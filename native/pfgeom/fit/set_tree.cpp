@@ -3,6 +3,7 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/fit/tree_checks.h"
 #include "pfgeom/fit/tree_patches.h"
+#include "pfgeom/fit/tree_seams.h"
 #include "pfgeom/function/quadric_family.h"
 #include "pfgeom/segment/segment.h"
 
@@ -75,6 +76,9 @@ void quantise_regions(const TriangleMesh& mesh, const std::vector<Region>& regio
     Patches patches = assign_patches(mesh, regions, own, options.tolerance * options.quantise_share);
     fit.quadrics = std::move(patches.quadrics);
     fit.patches = std::move(patches.of_face);
+    for (QuantisedQuadric& q :
+         find_separators(mesh, fit.quadrics, fit.patches, resolution, scales, options.tolerance, task))
+        fit.quadrics.push_back(std::move(q));
 }
 
 // The tree as it is written: quadrics in the order of their first use, unused ones dropped.

@@ -31,7 +31,7 @@ struct TreeFit {
     std::size_t regions = 0;
 
     RawTree raw;
-    std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not
+    std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not; separators last
     std::vector<std::int32_t> patches;       ///< of each face: its quadric
     std::vector<TreeSample> samples;
     BuildOptions build;

@@ -8,20 +8,27 @@
 #include "pfgeom/function/set_tree.h"
 #include "pfgeom/segment/power_sums.h"
 
+#include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace pfgeom {
 
-/// A point of the surface and how far the quadric may pass from it.
+/// A point of the surface and how far the quadric may pass from it. Of a separator also which way it has to
+/// fall: its outward normal is within a cosine of 0.9 of `outwards`, unless that is zero.
 struct CheckPoint {
     Vec3 point;
     double limit = 0;
+    Vec3 outwards = {};
 };
 
 struct QuantisedQuadric {
     TreeQuadric quadric;
     double bits = 0;  ///< estimate
+    /// Of a separator (tree_seams.h): the quadrics, rising, along whose seams it runs. Empty: a surface of
+    /// the part.
+    std::vector<std::pair<std::int32_t, std::int32_t>> between = {};
 };
 
 /// Does the quadric pass all points within their limits (to first order)?

@@ -36,6 +36,7 @@ class RegionSet {
 
     std::size_t size(std::int32_t region) const { return regions_[region].faces.size(); }
     double area(std::int32_t region) const { return regions_[region].area; }
+    Vec3 centroid(std::int32_t region) const { return regions_[region].sums.centroid(); }
     std::vector<Region> take();  ///< those with faces, by falling area
 
   private:

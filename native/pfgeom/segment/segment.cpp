@@ -13,6 +13,7 @@
 #include "pfgeom/segment/region_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <queue>
@@ -28,11 +29,12 @@ constexpr std::size_t kMostJoined = 4;
 // regions.
 struct Candidate {
     double cost = 0;
+    double rank = 0;  // among equal costs: the lower one first
     std::size_t size = 0;
     std::int32_t a = 0, b = 0;
 
     friend bool operator>(const Candidate& x, const Candidate& y) {
-        return std::tie(x.cost, x.size, x.a, x.b) > std::tie(y.cost, y.size, y.a, y.b);
+        return std::tie(x.cost, x.rank, x.size, x.a, x.b) > std::tie(y.cost, y.rank, y.size, y.a, y.b);
     }
 };
 using Queue = std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>>;
@@ -40,7 +42,7 @@ using Queue = std::priority_queue<Candidate, std::vector<Candidate>, std::greate
 std::optional<Candidate> candidate(const RegionSet& regions, std::int32_t a, std::int32_t b) {
     const std::optional<double> cost = regions.cost(a, b);
     if (!cost) return {};
-    return Candidate{*cost, regions.size(a) + regions.size(b), std::min(a, b), std::max(a, b)};
+    return Candidate{*cost, 0, regions.size(a) + regions.size(b), std::min(a, b), std::max(a, b)};
 }
 
 std::vector<std::pair<std::int32_t, std::int32_t>> neighbours(const TriangleMesh& mesh) {
@@ -51,16 +53,29 @@ std::vector<std::pair<std::int32_t, std::int32_t>> neighbours(const TriangleMesh
     return pairs;
 }
 
+// Two that lie apart. Of those that cost about the same, the farthest come first: beyond the outermost of
+// parallel planes there is nothing, whereas a pair of a floor and the bottom below it is negative above the
+// floor and below the bottom, and takes another plane to tell these apart (a box with a pocket, askew: 155
+// bytes instead of 100).
+std::optional<Candidate> candidate_apart(const RegionSet& regions, std::int32_t a, std::int32_t b) {
+    constexpr double kSteps = 40;  // of kCostSteps: what rounded coordinates differ in shall not decide
+    std::optional<Candidate> c = candidate(regions, a, b);
+    if (!c) return {};
+    c->cost = std::floor(c->cost / kSteps);
+    c->rank = -squared_norm(regions.centroid(a) - regions.centroid(b));
+    return c;
+}
+
 // Costs of many pairs, in their order.
-template <class PairAt>
+template <class PairAt, class CandidateOf>
 std::vector<Candidate> candidates(const RegionSet& regions, std::size_t count, const PairAt& pair_at,
-                                  const Task& task) {
+                                  const CandidateOf& candidate_of, const Task& task) {
     constexpr std::size_t kChunk = 1024;
     std::vector<std::vector<Candidate>> found((count + kChunk - 1) / kChunk);
     parallel_chunks(count, kChunk, task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto& [a, b] = pair_at(i);
-            if (const auto c = candidate(regions, a, b)) found[begin / kChunk].push_back(*c);
+            if (const auto c = candidate_of(regions, a, b)) found[begin / kChunk].push_back(*c);
         }
     });
     std::vector<Candidate> all;
@@ -82,7 +97,7 @@ void work_off(Queue& queue, const Task& task, const Take& take) {
 void merge_neighbours(const TriangleMesh& mesh, RegionSet& regions, UnionFind& roots, const Task& task) {
     const auto pairs = neighbours(mesh);
     Queue queue({}, candidates(
-                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, candidate, task));
     work_off(queue, task, [&](const Candidate& next) {
         const std::int32_t a = roots.find(next.a), b = roots.find(next.b);
         if (a == b) return;
@@ -103,15 +118,17 @@ void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_
     for (std::size_t i = 0; i < hosts; ++i) {
         for (std::size_t j = i + 1; j < alive.size(); ++j) pairs.emplace_back(alive[i], alive[j]);
     }
-    Queue queue({}, candidates(
-                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+    Queue queue({},
+                candidates(
+                    regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, candidate_apart, task));
     work_off(queue, task, [&](const Candidate& next) {
         if (regions.size(next.a) == 0 || regions.size(next.b) == 0) return;
         if (regions.size(next.a) + regions.size(next.b) != next.size || !regions.merge(next.a, next.b, true))
             return;
         std::erase(alive, next.b);
         const auto with_next = [&](std::size_t i) { return std::pair(next.a, alive[i]); };
-        for (const Candidate& c : candidates(regions, alive.size(), with_next, quiet(task, 1))) {
+        for (const Candidate& c :
+             candidates(regions, alive.size(), with_next, candidate_apart, quiet(task, 1))) {
             if (c.a != c.b) queue.push(c);
         }
     });
