@@ -509,6 +509,84 @@ PARTS: dict[str, Callable[[Builder], None]] = {
 }
 
 
+# Thin walls: a thickness in, the middle of the wall out, as points.
+
+
+def fin(b: Builder, thick: float) -> Array:
+    """Upright on a block, askew."""
+    b.frame(askew())
+    t = thick / 2
+    pieces = [Line((20, 0)), Line((20, 10)), Line((t, 10)), Line((t, 30)), Line((-t, 30)), Line((-t, 10)), Line((-20, 10)),
+              Line((-20, 0))]  # fmt: skip
+    loop = b.walls((-20, 0), pieces, 0, 40)
+    b.cap(0, False, loop)
+    b.cap(40, True, loop)
+    return spread((0, 0), (11, 29), (1, 39)) @ b.turn.T
+
+
+def thin_tube(b: Builder, thick: float) -> Array:
+    """Above a foot of 4 mm."""
+    profile = [Line((24, 0)), Line((24, 6)), Line((20, 6)), Line((20, 40)), Line((20 - thick, 40)), Line((20 - thick, 0))]
+    b.lathe((20 - thick, 0), profile, b.around(24))
+    return turned(20 - thick / 2, spread((0, 2 * np.pi), (7, 39)))
+
+
+def thin_dome(b: Builder, thick: float) -> Array:
+    """Half a hollow sphere."""
+    r = 20 - thick
+    pole = Line((0, r), wall=False)
+    pieces = [Line((20, 0)), Arc((0, 20), (0, 0)), pole, Arc((r, 0), (0, 0), left=False)]
+    b.lathe((r, 0), pieces, b.around(20, double=True))
+    angle, height = spread((0, 2 * np.pi), (0.03, 0.98)).T
+    around = np.stack([np.cos(angle), np.sin(angle)], axis=1) * np.sqrt(1 - height[:, None] ** 2)
+    return (20 - thick / 2) * np.column_stack([around, height])
+
+
+def thin_floor(b: Builder, thick: float) -> Array:
+    """Of a round box whose walls are 3 mm."""
+    n = b.around(20)
+    b.lathe((0, 0), [Line((20, 0)), Line((20, 15)), Line((17, 15)), Line((17, thick)), Line((0, thick))], n)
+    radius, angle = spread((1, 16), (0, 2 * np.pi)).T
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(len(angle), thick / 2)], axis=1)
+
+
+def thin_flange(b: Builder, thick: float) -> Array:
+    """Around a pin, askew."""
+    b.frame(askew())
+    profile = [Line((6, 0)), Line((6, 15)), Line((20, 15)), Line((20, 15 + thick)), Line((6, 15 + thick)), Line((6, 30)),
+               Line((0, 30))]  # fmt: skip
+    b.lathe((0, 0), profile, b.around(20))
+    radius, angle = spread((7, 19), (0, 2 * np.pi)).T
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(len(angle), 15 + thick / 2)], axis=1) @ b.turn.T
+
+
+def spread(*ranges: Point, count: int = 1500) -> Array:
+    """Points without a pattern."""
+    low, high = np.array(ranges, dtype=float).T
+    return np.random.default_rng(1).uniform(low, high, (count, len(ranges)))
+
+
+def turned(radius: float, angle_and_height: Array) -> Array:
+    angle, height = angle_and_height.T
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)
+
+
+WALLS: dict[str, Callable[[Builder, float], Array]] = {
+    f.__name__: f for f in (fin, thin_tube, thin_dome, thin_floor, thin_flange)
+}
+
+
+def make_wall(name: str, thickness: float, tolerance: float) -> tuple[Part, Array]:
+    """A part with a wall so many tolerances thick, and points in the middle of the wall. Tessellated so finely that the
+    two sides stay clear of each other."""
+    rough = Builder(np.inf)
+    WALLS[name](rough, 1)
+    length = tolerance * rough.build().diagonal
+    builder = Builder(min(0.25, 0.2 * thickness) * length)
+    middle = WALLS[name](builder, thickness * length)
+    return builder.build(), middle
+
+
 def make(name: str, chord: float, aspect: float = np.inf) -> Part:
     """`chord`: a share of the diagonal, which no face misses its quadric by."""
     size = build(name, 1).diagonal  # circles of four chords have the right box

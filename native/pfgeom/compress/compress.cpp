@@ -4,6 +4,7 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
+#include "pfgeom/segment/exact_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,10 @@ namespace {
 constexpr double kSeamShare = 1.0 / 16;
 // Up to so many faces the mesh candidate is cheap enough to be tried first, as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
+// A larger one is tried as a tree first if so much of its area is an exact tessellation: parts have 0.9 to 1,
+// scans less than 0.1; no mesh of so many faces comes below the bytes of such a tree.
+constexpr double kTessellated = 0.85;
+constexpr std::size_t kMostTreeBytes = 3000;
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
@@ -96,6 +101,9 @@ class Compressor {
         if (mesh.faces.size() < kLeastFaces) return {};
         std::optional<Outcome> plain;
         const bool by_max = options_.metric == Metric::max, large = mesh.faces.size() > kQuickMesh;
+        if (by_max && large && exact_share(mesh, task) >= kTessellated) {
+            if (std::optional<Outcome> tree = try_tree(goal, kMostTreeBytes, task)) return tree;
+        }
         if (by_max || !large) plain = try_mesh(goal, task);
         // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
         if (by_max && large && plain->holds) return plain;

@@ -39,6 +39,10 @@ std::size_t sample_count(const Effort& effort, std::size_t quadrics) {
     return std::clamp(effort.samples * quadrics, kLeast, effort.most_samples);
 }
 
+// SegmentOptions::most_misalignment that a cone does not break: a funnel of 7 quadrics is 7 regions instead
+// of 25.
+constexpr double kConesWhole = 0.16;
+
 // Half the tolerance or a little less is the unit of constants.
 int resolution_for(double tolerance) {
     int resolution = 0;
@@ -76,6 +80,7 @@ void quantise_regions(const TriangleMesh& mesh, const std::vector<Region>& regio
     Patches patches = assign_patches(mesh, regions, own, options.tolerance * options.quantise_share);
     fit.quadrics = std::move(patches.quadrics);
     fit.patches = std::move(patches.of_face);
+    if (!options.askew) return;
     for (QuantisedQuadric& q :
          find_separators(mesh, fit.quadrics, fit.patches, resolution, scales, options.tolerance, task))
         fit.quadrics.push_back(std::move(q));
@@ -155,6 +160,8 @@ TreeFit fit_set_tree(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOpti
     SegmentOptions segmenting;
     segmenting.tolerance = options.tolerance * options.fit_share;
     segmenting.most_regions = options.most_regions;
+    segmenting.outermost_first = options.askew;
+    if (options.askew) segmenting.most_misalignment = kConesWhole;
     const std::vector<Region> regions = segment(mesh, segmenting, quiet(task, task.threads));
     if (regions.empty()) return fit;
     fit.regions = regions.size();

@@ -84,7 +84,7 @@ double integer_bits(std::int32_t n) {
 }
 
 bool passes_point(const Quadric& q, const CheckPoint& check) {
-    if (!(surface_distance(q, check.point) <= check.limit)) return false;
+    if (!within(q, check.point, check.limit)) return false;
     if (check.outwards == Vec3{}) return true;
     const Vec3 g = q.gradient(check.point);
     return -dot(g, check.outwards) >= kAligned * norm(g);

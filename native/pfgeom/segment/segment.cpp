@@ -53,11 +53,11 @@ std::vector<std::pair<std::int32_t, std::int32_t>> neighbours(const TriangleMesh
     return pairs;
 }
 
-// Two that lie apart. Of those that cost about the same, the farthest come first: beyond the outermost of
-// parallel planes there is nothing, whereas a pair of a floor and the bottom below it is negative above the
-// floor and below the bottom, and takes another plane to tell these apart (a box with a pocket, askew: 155
-// bytes instead of 100).
-std::optional<Candidate> candidate_apart(const RegionSet& regions, std::int32_t a, std::int32_t b) {
+// As candidate(), but of those that cost about the same the farthest come first. Beyond the outermost of
+// parallel planes there is nothing, whereas a pair of a pocket's floor and the bottom below is negative above
+// the floor and below the bottom, and takes another plane to tell these apart (a box with a pocket, askew:
+// 155 bytes, and 100 so). Not always better: hub_gear of examples/parts.py has 141 bytes, and 167 so.
+std::optional<Candidate> outermost_first(const RegionSet& regions, std::int32_t a, std::int32_t b) {
     constexpr double kSteps = 40;  // of kCostSteps: what rounded coordinates differ in shall not decide
     std::optional<Candidate> c = candidate(regions, a, b);
     if (!c) return {};
@@ -110,17 +110,18 @@ void merge_neighbours(const TriangleMesh& mesh, RegionSet& regions, UnionFind& r
 }
 
 // Regions that need not touch: the largest against all.
-void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_t hosts, const Task& task) {
+void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, const SegmentOptions& options,
+                 const Task& task) {
+    const auto candidate_of = options.outermost_first ? outermost_first : candidate;
     std::ranges::stable_sort(
         alive, [&](std::int32_t a, std::int32_t b) { return regions.area(a) > regions.area(b); });
-    hosts = std::min(hosts, alive.size());
+    const std::size_t hosts = std::min(options.hosts, alive.size());
     std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
     for (std::size_t i = 0; i < hosts; ++i) {
         for (std::size_t j = i + 1; j < alive.size(); ++j) pairs.emplace_back(alive[i], alive[j]);
     }
-    Queue queue({},
-                candidates(
-                    regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, candidate_apart, task));
+    Queue queue({}, candidates(
+                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, candidate_of, task));
     work_off(queue, task, [&](const Candidate& next) {
         if (regions.size(next.a) == 0 || regions.size(next.b) == 0) return;
         if (regions.size(next.a) + regions.size(next.b) != next.size || !regions.merge(next.a, next.b, true))
@@ -128,7 +129,7 @@ void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_
         std::erase(alive, next.b);
         const auto with_next = [&](std::size_t i) { return std::pair(next.a, alive[i]); };
         for (const Candidate& c :
-             candidates(regions, alive.size(), with_next, candidate_apart, quiet(task, 1))) {
+             candidates(regions, alive.size(), with_next, candidate_of, quiet(task, 1))) {
             if (c.a != c.b) queue.push(c);
         }
     });
@@ -137,7 +138,7 @@ void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_
 }  // namespace
 
 std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& options, const Task& task) {
-    RegionSet regions(mesh, options.tolerance);
+    RegionSet regions(mesh, options.tolerance, options.most_misalignment);
     UnionFind roots(mesh.faces.size());
     for (const auto& faces : find_exact_patches(mesh, task)) {
         if (!regions.unite(faces)) continue;
@@ -149,7 +150,7 @@ std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& opti
         if (regions.size(static_cast<std::int32_t>(f)) > 0) alive.push_back(static_cast<std::int32_t>(f));
     }
     if (alive.size() / kMostJoined > options.most_regions) return {};
-    merge_apart(regions, std::move(alive), options.hosts, task);
+    merge_apart(regions, std::move(alive), options, task);
     regions.refine_all(task);
     std::vector<Region> result = regions.take();
     if (result.size() > options.most_regions) result.clear();
