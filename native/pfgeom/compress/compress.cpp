@@ -4,6 +4,7 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
+#include "pfgeom/segment/exact_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,9 @@ constexpr double kSeamShare = 1.0 / 16;
 // Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
 constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
+// A larger one is tried as a tree if so much of its area is an exact tessellation: parts and unions of
+// ellipsoids have 0.9 to 1, scans less than 0.1.
+constexpr double kTessellated = 0.5;
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
@@ -102,12 +106,14 @@ class Compressor {
     // made for comparison. The estimate of the mesh says when that is so.
     std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) const {
         const MeshEstimate estimate = estimate_mesh(goal, task);
-        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
-        const bool all = goal.effort == Effort::best;
+        const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
+        std::optional<Outcome> best;
+        if (!large || exact_share(goal.mesh, task) >= kTessellated)
+            best = try_tree(goal, estimate.likely, task);
         if (best && best->bytes < estimate.least && !all) return best;
         Outcome plain = try_mesh(goal, task);
         // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
-        if (all || goal.mesh.faces.size() <= kQuickMesh || !plain.holds) {
+        if (all || !large || !plain.holds) {
             const std::size_t most = std::min(best ? best->bytes : plain.bytes, plain.bytes);
             take_cheaper(try_hierarchy(goal, most, task), best);
         }

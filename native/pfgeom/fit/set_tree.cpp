@@ -3,6 +3,7 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/fit/tree_checks.h"
 #include "pfgeom/fit/tree_patches.h"
+#include "pfgeom/fit/tree_seams.h"
 #include "pfgeom/function/quadric_family.h"
 #include "pfgeom/segment/segment.h"
 
@@ -41,6 +42,10 @@ std::size_t sample_count(const Effort& effort, const TreeFit& fit) {
     return std::clamp(effort.samples * fit.quadrics.size(), kLeast, effort.most_samples);
 }
 
+// SegmentOptions::most_misalignment that a cone does not break: a funnel of 7 quadrics is 7 regions instead
+// of 25.
+constexpr double kConesWhole = 0.16;
+
 // Half the tolerance or a little less is the unit of constants.
 int resolution_for(double tolerance) {
     int resolution = 0;
@@ -68,6 +73,8 @@ std::vector<Region> find_regions(const TriangleMesh& mesh, const Bvh& bvh, const
     const std::vector<WholeQuadric> whole = find_whole_quadrics(mesh, distance, segmenting.tolerance,
                                                                 options.tolerance * options.tube_share, task);
     segmenting.whole = whole;
+    segmenting.outermost_first = options.askew;
+    if (options.askew) segmenting.most_misalignment = kConesWhole;
     return segment(mesh, segmenting, task);
 }
 
@@ -99,6 +106,10 @@ void quantise_regions(const TriangleMesh& mesh, const std::vector<Region>& regio
     Patches patches = assign_patches(mesh, regions, own, options.tolerance * options.quantise_share);
     fit.quadrics = std::move(patches.quadrics);
     fit.patches = std::move(patches.of_face);
+    if (!options.askew) return;
+    for (QuantisedQuadric& q :
+         find_separators(mesh, fit.quadrics, fit.patches, resolution, scales, options.tolerance, task))
+        fit.quadrics.push_back(std::move(q));
 }
 
 // The tree as it is written: quadrics in the order of their first use, unused ones dropped.

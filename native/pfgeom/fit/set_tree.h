@@ -16,10 +16,14 @@
 namespace pfgeom {
 
 struct TreeFitOptions {
-    double tolerance = 0;             ///< in the cube's units
-    double fit_share = 0.75;          ///< of the tolerance: what a region's quadric may miss its points by
-    double quantise_share = 0.9;      ///< … once it is rounded to integers
-    double tube_share = 0.97;         ///< from what distance on the side of a point counts
+    double tolerance = 0;         ///< in the cube's units
+    double fit_share = 0.75;      ///< of the tolerance: what a region's quadric may miss its points by
+    double quantise_share = 0.9;  ///< … once it is rounded to integers
+    double tube_share = 0.97;     ///< from what distance on the side of a point counts
+    /// For parts that stand askew, in which cuts across axes are of little help: the outermost of parallel
+    /// planes are paired first (SegmentOptions::outermost_first), and questions may ask separators
+    /// (tree_seams.h).
+    bool askew = false;
     std::size_t most_regions = 1000;  ///< a shape with more is for another representation
     int effort = 1;                   ///< 0 fast, 1 normal, 2 best
     std::vector<Spot> held;           ///< around these, whole quadrics move by so much less
@@ -36,7 +40,7 @@ struct TreeFit {
     bool mostly_whole() const { return whole >= 0.9; }
 
     RawTree raw;
-    std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not
+    std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not; separators last
     std::vector<std::int32_t> patches;       ///< of each face: its quadric
     std::vector<TreeSample> samples;
     BuildOptions build;

@@ -66,6 +66,7 @@ class Builder {
                       int tried);
     Question ask(std::int32_t quadric, bool here) const;
     std::int32_t peeled(const Members& members, int depth) const;
+    bool separates(std::size_t q, const std::vector<char>& here) const;
     std::vector<Question> best_questions(const TreeCell& cell, const Box& box, std::size_t most) const;
     const Question& cheapest(const std::vector<Question>& questions, const TreeCell& cell, const Box& box,
                              int depth);
@@ -161,11 +162,20 @@ void offer_cuts(const Box& bounds, const Box& box, Shortlist& list) {
     }
 }
 
+// Is q a separator of quadrics with patches here?
+bool Builder::separates(std::size_t q, const std::vector<char>& here) const {
+    return std::ranges::any_of(quadrics_[q].between, [&](const auto& pair) {
+        return here[static_cast<std::size_t>(pair.first)] != 0 &&
+               here[static_cast<std::size_t>(pair.second)] != 0;
+    });
+}
+
 std::vector<Question> Builder::best_questions(const TreeCell& cell, const Box& box, std::size_t most) const {
     std::vector<char> here(quadrics_.size(), 0);
     for (std::size_t k = 0; k < cell.patches(); ++k) here[static_cast<std::size_t>(cell.patch(k))] = 1;
     Shortlist list(cell, most);
     for (std::size_t q = 0; q < quadrics_.size(); ++q) {
+        here[q] |= separates(q, here);
         if (asked_[q] != 0 || (here[q] == 0 && known_[q] == 0)) continue;
         list.offer(ask(static_cast<std::int32_t>(q), here[q] != 0));
     }

@@ -12,6 +12,7 @@ namespace pfgeom {
 namespace {
 
 constexpr double kRidge = 1e-11;
+constexpr double kAligned = 0.9;    // CheckPoint::outwards
 constexpr int kCoarsestShift = 11;  // of linear terms and of squares; coarser never won
 // Scales span a little more than an octave: the units are powers of two.
 constexpr double kLeastScale = 0.6, kScaleSpan = 1.0;
@@ -83,8 +84,12 @@ double integer_bits(std::int32_t n) {
 }
 
 bool passes_point(const Quadric& q, const CheckPoint& check) {
-    if (check.kind == CheckPoint::Kind::near) return surface_distance(q, check.point) <= check.limit;
-    return (q.value(check.point) >= 0) == (check.kind == CheckPoint::Kind::positive);
+    if (check.kind != CheckPoint::Kind::near)
+        return (q.value(check.point) >= 0) == (check.kind == CheckPoint::Kind::positive);
+    if (!within(q, check.point, check.limit)) return false;
+    if (check.outwards == Vec3{}) return true;
+    const Vec3 g = q.gradient(check.point);
+    return -dot(g, check.outwards) >= kAligned * norm(g);
 }
 
 double head_bits(FamilyKind kind) {

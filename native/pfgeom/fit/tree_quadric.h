@@ -10,22 +10,28 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace pfgeom {
 
-/// A point of the surface and how far the quadric may pass from it.
+/// A point of the surface and how far the quadric may pass from it. Of a separator also which way it has to
+/// fall: its outward normal is within a cosine of 0.9 of `outwards`, unless that is zero.
 struct CheckPoint {
     /// near: within `limit`, to first order; else the quadric must be positive or negative at the point.
     enum class Kind : std::uint8_t { near, positive, negative };
     Vec3 point;
     double limit = 0;
     Kind kind = Kind::near;
+    Vec3 outwards = {};
 };
 
 struct QuantisedQuadric {
     TreeQuadric quadric;
     double bits = 0;  ///< estimate
+    /// Of a separator (tree_seams.h): the quadrics, rising, along whose seams it runs. Empty: a surface of
+    /// the part.
+    std::vector<std::pair<std::int32_t, std::int32_t>> between = {};
 };
 
 /// Does the quadric pass all points within their limits (to first order)?

@@ -215,4 +215,31 @@ std::vector<ExactPatch> find_exact_patches(const TriangleMesh& mesh, const Task&
     return PatchFinder(mesh).run(task);
 }
 
+double exact_share(const TriangleMesh& mesh, const Task& task) {
+    std::vector<char> exact(mesh.faces.size(), 0);
+    for (const ExactPatch& patch : find_exact_patches(mesh, task)) {
+        for (const std::int32_t f : patch.faces) exact[f] = 1;
+    }
+    const double near = kExact * diagonal(mesh);
+    EdgeTable(mesh.faces, mesh.vertices.size()).for_each([&](std::span<const EdgeUse> uses) {
+        if (uses.size() != 2) return;
+        const auto& [a, b, c] = mesh.faces[uses[0].face()];
+        const Vec3 n =
+            normalized(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+        const bool flat = std::ranges::all_of(mesh.faces[uses[1].face()], [&](std::int32_t v) {
+            return std::abs(dot(n, mesh.vertices[v] - mesh.vertices[a])) <= near;
+        });
+        if (flat) exact[uses[0].face()] = exact[uses[1].face()] = 1;
+    });
+    double all = 0, share = 0;
+    for (std::size_t f = 0; f < exact.size(); ++f) {
+        const auto& [a, b, c] = mesh.faces[f];
+        const double area =
+            norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+        all += area;
+        if (exact[f] != 0) share += area;
+    }
+    return all > 0 ? share / all : 0;
+}
+
 }  // namespace pfgeom

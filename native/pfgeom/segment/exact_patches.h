@@ -20,4 +20,9 @@ struct ExactPatch {
 /// Disjoint. Flat ones are left to the merging of faces, which needs no evidence.
 std::vector<ExactPatch> find_exact_patches(const TriangleMesh& mesh, const Task& task = {});
 
+/// The share of the area that looks like a tessellation of quadrics: exact patches, and faces with a
+/// neighbour in their plane, as in flat sides and in strips along cylinders and cones. Costs a look at every
+/// edge: to be asked before anything dear is tried on a large mesh.
+double exact_share(const TriangleMesh& mesh, const Task& task = {});
+
 }  // namespace pfgeom

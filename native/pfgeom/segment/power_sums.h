@@ -45,6 +45,7 @@ class PowerSums {
     PowerSums& operator*=(double factor);
 
     double weight() const { return powers_[0]; }
+    Vec3 centroid() const { return Vec3{powers_[1], powers_[2], powers_[3]} / weight(); }
     QuadricSystem system() const;
 
   private:

@@ -13,14 +13,11 @@ namespace {
 // double planes. Sixteen times as much pulls ellipsoids, whose gradients are not of one length, towards
 // spheres: 435 regions instead of 124 on a union of 83 ellipsoids, 105 instead of 75 on a printed part.
 constexpr double kNormalReach = 1;
-// Mean |∇q + n|² of a region: facets of a cylinder of sixteen sides have 0.013, two faces at 45° 0.15.
-constexpr double kMostMisalignment = 0.08;
 // The largest error of a region is rarely below 1.8 times its root mean square, so that more is not worth a
 // look.
 constexpr double kMostRms = 1 / 1.8;
 constexpr double kCostSteps = 1000;  // of the error, to the tolerance; 64: a tenth more regions
 constexpr double kAlignment = 100;   // tolerances for a misalignment of one; 0.05: a fifth more regions
-constexpr double kLeastGradient = 0.3;
 
 // Lawson's weights, "Contributions to the theory of linear least maximum approximation", 1961: the error
 // times the weight so far, with a floor so that no face is lost.
@@ -35,10 +32,23 @@ double face_error(const TriangleMesh& mesh, std::int32_t face, const Quadric& q)
     return worst;
 }
 
+// The Frobenius norm of the second derivatives, no less than any of them along a line.
+double bend(const Quadric& q) {
+    const auto& [a, b, c, d, e, f, g, h, i, k] = q.c;
+    return std::sqrt(4 * (a * a + b * b + c * c) + 2 * (d * d + e * e + f * f));
+}
+
 }  // namespace
 
 double surface_distance(const Quadric& q, const Vec3& p) {
-    return std::abs(q.value(p)) / std::max(norm(q.gradient(p)), kLeastGradient);
+    const double value = std::abs(q.value(p)), slope = norm(q.gradient(p));
+    if (!(value > 0)) return 0;
+    return 2 * value / (slope + std::sqrt(slope * slope + 2 * bend(q) * value));
+}
+
+bool within(const Quadric& q, const Vec3& p, double distance) {
+    const double rest = std::abs(q.value(p)) - bend(q) * distance * distance / 2;
+    return rest <= 0 || rest * rest <= distance * distance * squared_norm(q.gradient(p));
 }
 
 std::array<Vec3, 7> check_points(const TriangleMesh& mesh, std::int32_t face) {
@@ -47,8 +57,8 @@ std::array<Vec3, 7> check_points(const TriangleMesh& mesh, std::int32_t face) {
     return {a, b, c, (a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5, (a + b + c) / 3};
 }
 
-RegionSet::RegionSet(const TriangleMesh& mesh, double tolerance)
-    : mesh_(mesh), tolerance_(tolerance), regions_(mesh.faces.size()) {
+RegionSet::RegionSet(const TriangleMesh& mesh, double tolerance, double most_misalignment)
+    : mesh_(mesh), tolerance_(tolerance), most_misalignment_(most_misalignment), regions_(mesh.faces.size()) {
     const double reach = kNormalReach * tolerance;
     normal_weight_ = reach * reach;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -65,19 +75,15 @@ std::optional<double> RegionSet::cost(std::int32_t a, std::int32_t b) const {
     sums += regions_[b].sums;
     const QuadricSystem system = sums.system();
     const FitQuality fit = system.quality(system.solve(normal_weight_));
-    if (!(fit.rms <= tolerance_ * kMostRms && fit.misalignment <= kMostMisalignment)) return {};
+    if (!(fit.rms <= tolerance_ * kMostRms && fit.misalignment <= most_misalignment_)) return {};
     return std::floor(kCostSteps * (fit.rms / tolerance_ + kAlignment * fit.misalignment));
 }
 
 bool RegionSet::serves(const Quadric& q, const Region& region) const {
-    const double tolerance2 = tolerance_ * tolerance_, least = kLeastGradient * kLeastGradient;
-    for (const std::int32_t f : region.faces) {
-        for (const Vec3& p : check_points(mesh_, f)) {
-            const double value = q.value(p);
-            if (value * value > tolerance2 * std::max(squared_norm(q.gradient(p)), least)) return false;
-        }
-    }
-    return true;
+    return std::ranges::all_of(region.faces, [&](std::int32_t f) {
+        return std::ranges::all_of(check_points(mesh_, f),
+                                   [&](const Vec3& p) { return within(q, p, tolerance_); });
+    });
 }
 
 double RegionSet::worst_error(const Quadric& q, const Region& region) const {

@@ -9,9 +9,15 @@
 
 namespace pfgeom {
 
-/// First-order distance of p to the quadric's surface. The least gradient keeps a singular point (the apex of
-/// a cone, the axis of a fold) from hiding errors; gradients are about 1 on the surface.
+/// A lower bound of the distance from p to the quadric's surface, near the truth close to it: the d at which
+/// the value g d + h d²/2 can be reached, with the gradient's length g and the largest second derivative h
+/// (Taubin, "Distance approximations for rasterizing implicit curves", ACM TOG 13(1), 1994). The first order
+/// alone has no answer at the tip of a cone, and a floor under g hides what misses the thin end of one by
+/// several tolerances.
 double surface_distance(const Quadric& q, const Vec3& p);
+
+/// surface_distance(q, p) <= distance, but for rounding.
+bool within(const Quadric& q, const Vec3& p, double distance);
 
 /// Corners, edge middles and centroid: where a triangle is checked.
 std::array<Vec3, 7> check_points(const TriangleMesh& mesh, std::int32_t face);
@@ -19,7 +25,7 @@ std::array<Vec3, 7> check_points(const TriangleMesh& mesh, std::int32_t face);
 class RegionSet {
   public:
     /// A region for each face.
-    RegionSet(const TriangleMesh& mesh, double tolerance);
+    RegionSet(const TriangleMesh& mesh, double tolerance, double most_misalignment);
 
     /// What merging would cost, from the sums alone: nothing if they tell that no quadric serves both. Rising
     /// with the error, in steps, and among equals with the size: balanced merging touches a face log n times.
@@ -41,6 +47,7 @@ class RegionSet {
     bool merges(std::int32_t region) const {
         return !regions_[region].faces.empty() && !regions_[region].whole;
     }
+    Vec3 centroid(std::int32_t region) const { return regions_[region].sums.centroid(); }
     std::vector<Region> take();  ///< those with faces, by falling area
 
   private:
@@ -50,7 +57,7 @@ class RegionSet {
     void refine(Region& region, double enough) const;
 
     const TriangleMesh& mesh_;
-    double tolerance_, normal_weight_;
+    double tolerance_, most_misalignment_, normal_weight_ = 0;
     std::vector<Region> regions_;
 };
 

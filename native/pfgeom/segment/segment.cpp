@@ -13,6 +13,7 @@
 #include "pfgeom/segment/region_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <queue>
@@ -28,11 +29,12 @@ constexpr std::size_t kMostJoined = 4;
 // regions.
 struct Candidate {
     double cost = 0;
+    double rank = 0;  // among equal costs: the lower one first
     std::size_t size = 0;
     std::int32_t a = 0, b = 0;
 
     friend bool operator>(const Candidate& x, const Candidate& y) {
-        return std::tie(x.cost, x.size, x.a, x.b) > std::tie(y.cost, y.size, y.a, y.b);
+        return std::tie(x.cost, x.rank, x.size, x.a, x.b) > std::tie(y.cost, y.rank, y.size, y.a, y.b);
     }
 };
 using Queue = std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>>;
@@ -40,7 +42,7 @@ using Queue = std::priority_queue<Candidate, std::vector<Candidate>, std::greate
 std::optional<Candidate> candidate(const RegionSet& regions, std::int32_t a, std::int32_t b) {
     const std::optional<double> cost = regions.cost(a, b);
     if (!cost) return {};
-    return Candidate{*cost, regions.size(a) + regions.size(b), std::min(a, b), std::max(a, b)};
+    return Candidate{*cost, 0, regions.size(a) + regions.size(b), std::min(a, b), std::max(a, b)};
 }
 
 std::vector<std::pair<std::int32_t, std::int32_t>> neighbours(const TriangleMesh& mesh) {
@@ -51,16 +53,29 @@ std::vector<std::pair<std::int32_t, std::int32_t>> neighbours(const TriangleMesh
     return pairs;
 }
 
+// As candidate(), but of those that cost about the same the farthest come first. Beyond the outermost of
+// parallel planes there is nothing, whereas a pair of a pocket's floor and the bottom below is negative above
+// the floor and below the bottom, and takes another plane to tell these apart (a box with a pocket, askew:
+// 155 bytes, and 100 so). Not always better: hub_gear of examples/parts.py has 141 bytes, and 167 so.
+std::optional<Candidate> outermost_first(const RegionSet& regions, std::int32_t a, std::int32_t b) {
+    constexpr double kSteps = 40;  // of kCostSteps: what rounded coordinates differ in shall not decide
+    std::optional<Candidate> c = candidate(regions, a, b);
+    if (!c) return {};
+    c->cost = std::floor(c->cost / kSteps);
+    c->rank = -squared_norm(regions.centroid(a) - regions.centroid(b));
+    return c;
+}
+
 // Costs of many pairs, in their order.
-template <class PairAt>
+template <class PairAt, class CandidateOf>
 std::vector<Candidate> candidates(const RegionSet& regions, std::size_t count, const PairAt& pair_at,
-                                  const Task& task) {
+                                  const CandidateOf& candidate_of, const Task& task) {
     constexpr std::size_t kChunk = 1024;
     std::vector<std::vector<Candidate>> found((count + kChunk - 1) / kChunk);
     parallel_chunks(count, kChunk, task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto& [a, b] = pair_at(i);
-            if (const auto c = candidate(regions, a, b)) found[begin / kChunk].push_back(*c);
+            if (const auto c = candidate_of(regions, a, b)) found[begin / kChunk].push_back(*c);
         }
     });
     std::vector<Candidate> all;
@@ -82,7 +97,7 @@ void work_off(Queue& queue, const Task& task, const Take& take) {
 void merge_neighbours(const TriangleMesh& mesh, RegionSet& regions, UnionFind& roots, const Task& task) {
     const auto pairs = neighbours(mesh);
     Queue queue({}, candidates(
-                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, candidate, task));
     work_off(queue, task, [&](const Candidate& next) {
         const std::int32_t a = roots.find(next.a), b = roots.find(next.b);
         if (a == b) return;
@@ -95,23 +110,26 @@ void merge_neighbours(const TriangleMesh& mesh, RegionSet& regions, UnionFind& r
 }
 
 // Regions that need not touch: the largest against all.
-void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_t hosts, const Task& task) {
+void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, const SegmentOptions& options,
+                 const Task& task) {
+    const auto candidate_of = options.outermost_first ? outermost_first : candidate;
     std::ranges::stable_sort(
         alive, [&](std::int32_t a, std::int32_t b) { return regions.area(a) > regions.area(b); });
-    hosts = std::min(hosts, alive.size());
+    const std::size_t hosts = std::min(options.hosts, alive.size());
     std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
     for (std::size_t i = 0; i < hosts; ++i) {
         for (std::size_t j = i + 1; j < alive.size(); ++j) pairs.emplace_back(alive[i], alive[j]);
     }
     Queue queue({}, candidates(
-                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, task));
+                        regions, pairs.size(), [&](std::size_t i) { return pairs[i]; }, candidate_of, task));
     work_off(queue, task, [&](const Candidate& next) {
         if (regions.size(next.a) == 0 || regions.size(next.b) == 0) return;
         if (regions.size(next.a) + regions.size(next.b) != next.size || !regions.merge(next.a, next.b, true))
             return;
         std::erase(alive, next.b);
         const auto with_next = [&](std::size_t i) { return std::pair(next.a, alive[i]); };
-        for (const Candidate& c : candidates(regions, alive.size(), with_next, quiet(task, 1))) {
+        for (const Candidate& c :
+             candidates(regions, alive.size(), with_next, candidate_of, quiet(task, 1))) {
             if (c.a != c.b) queue.push(c);
         }
     });
@@ -120,7 +138,7 @@ void merge_apart(RegionSet& regions, std::vector<std::int32_t> alive, std::size_
 }  // namespace
 
 std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& options, const Task& task) {
-    RegionSet regions(mesh, options.tolerance);
+    RegionSet regions(mesh, options.tolerance, options.most_misalignment);
     UnionFind roots(mesh.faces.size());
     for (const WholeQuadric& whole : options.whole) {
         regions.unite(whole);
@@ -137,7 +155,7 @@ std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& opti
         if (regions.merges(static_cast<std::int32_t>(f))) alive.push_back(static_cast<std::int32_t>(f));
     }
     if (alive.size() / kMostJoined > options.most_regions) return {};
-    merge_apart(regions, std::move(alive), options.hosts, task);
+    merge_apart(regions, std::move(alive), options, task);
     regions.refine_all(task);
     std::vector<Region> result = regions.take();
     if (result.size() > options.most_regions) result.clear();

@@ -95,6 +95,38 @@ TEST(Segment, CanBeCancelled) {
     EXPECT_THROW(segment(shapes::sphere(4), {0.001}, {1, &token, {}}), Cancelled);
 }
 
+TEST(Segment, TheOutermostOfParallelPlanesArePairedFirst) {
+    // Three plates, one on the other but for gaps: of their six sides the outermost are one slab.
+    TriangleMesh mesh;
+    for (const double z : {-0.5, 0.0, 0.5})
+        mesh = shapes::joined(
+            mesh, shapes::translated(shapes::scaled(shapes::cube(1), {0.6, 0.6, 0.1}), {0, 0, z}));
+    SegmentOptions options{0.001};
+    options.outermost_first = true;
+    const auto regions = segment(mesh, options);
+    expect_sound(mesh, regions, 0.001);
+    const bool outermost = std::ranges::any_of(regions, [&](const Region& region) {
+        return surface_distance(region.quadric, {0.2, 0.1, 0.6}) < 1e-6 &&
+               surface_distance(region.quadric, {0.1, 0.3, -0.6}) < 1e-6;
+    });
+    EXPECT_TRUE(outermost);
+}
+
+TEST(SurfaceDistance, IsALowerBoundAtTheTipOfACone) {
+    const Quadric blunt{{-1, -1, 1, 0, 0, 0, 0, 0, 0, -0.0004}};  // z² = x² + y² + 0.02²
+    EXPECT_GT(surface_distance(blunt, {}), 0.01);
+    EXPECT_LE(surface_distance(blunt, {}), 0.02);
+    EXPECT_TRUE(within(blunt, {}, 0.02));
+    EXPECT_FALSE(within(blunt, {}, 0.01));
+    EXPECT_NEAR(surface_distance({{-1, -1, -1, 0, 0, 0, 0, 0, 0, 0.25}}, {0.501, 0, 0}), 0.001, 1e-5);
+}
+
+TEST(ExactPatches, ShareTellsTessellationsFromScans) {
+    EXPECT_EQ(exact_share(shapes::cylinder(64)), 1);
+    EXPECT_EQ(exact_share(shapes::ellipsoid({0.9, 0.5, 0.15}, 4)), 1);
+    EXPECT_LT(exact_share(shapes::bumpy_sphere(4)), 0.2);
+}
+
 TEST(ExactPatches, CoverTessellatedQuadrics) {
     // Coarse: the faces miss the ellipsoids by far more than the vertices do.
     const TriangleMesh mesh =
