@@ -153,6 +153,9 @@ class Model:
     def gradient(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.float64]:
         """Gradient of the field. It points inwards: the outward normal is its negative, normalised (paper eq. 14-16).
 
+        Of a set tree: that of the quadric that decides at the point, of unit length; away from the surface the field is
+        its distance to first order only, whose slope is not quite one.
+
         Parameters
         ----------
         points : (..., 3)

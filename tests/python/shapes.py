@@ -39,12 +39,13 @@ def grid(rows: int, columns: int, wrap_rows: bool, wrap_columns: bool):
     return np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
 
 
-def torus(rows: int = 48, columns: int = 24, radius: float = 0.4):
-    """Around the z axis, core circle of radius 1."""
+def torus(rows: int = 48, columns: int = 24, radius: float = 0.4, ripple: float = 0.0):
+    """Around the z axis, core circle of radius 1; with a ripple the tube is thicker in four places: a free form."""
     u = np.linspace(0, 2 * np.pi, rows, endpoint=False)[:, None]
     v = np.linspace(0, 2 * np.pi, columns, endpoint=False)[None, :]
-    wide = 1 + radius * np.cos(v)
-    vertices = np.stack(np.broadcast_arrays(wide * np.cos(u), wide * np.sin(u), radius * np.sin(v)), axis=-1)
+    tube = radius * (1 + ripple * np.cos(4 * u))
+    wide = 1 + tube * np.cos(v)
+    vertices = np.stack(np.broadcast_arrays(wide * np.cos(u), wide * np.sin(u), tube * np.sin(v)), axis=-1)
     return vertices.reshape(-1, 3), grid(rows, columns, True, True)
 
 

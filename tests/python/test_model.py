@@ -132,6 +132,7 @@ def test_field_of_a_sphere(sphere_model):
 
 
 def test_gradient_is_the_derivative(torus_model):
+    assert torus_model.functions.perturbations > 0
     points = np.random.default_rng(5).uniform(-1.2, 1.2, (200, 3))
     points = points[np.abs(torus_model(points)) < 0.2]
     step = 1e-5

@@ -47,7 +47,7 @@ std::optional<Outcome> try_tree(const Goal& goal, std::size_t most_bytes, const 
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
 /// What the simplified and coded mesh would take, at a small part of the work.
 struct MeshEstimate {
-    std::size_t least = 0;   ///< hardly ever fewer bytes than this
+    std::size_t least = 0;   ///< hardly ever fewer bytes than this where the shape is made of quadrics
     std::size_t likely = 0;  ///< hardly ever more than this
 };
 MeshEstimate estimate_mesh(const Goal& goal, const Task& task);

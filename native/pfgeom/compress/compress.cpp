@@ -113,7 +113,8 @@ class Compressor {
         if (best && best->bytes < estimate.least && !all) return best;
         Outcome plain = try_mesh(goal, task);
         // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
-        if (all || !large || !plain.holds) {
+        // None has beaten a tree.
+        if (all || (!best && !large) || !plain.holds) {
             const std::size_t most = std::min(best ? best->bytes : plain.bytes, plain.bytes);
             take_cheaper(try_hierarchy(goal, most, task), best);
         }

@@ -1,5 +1,6 @@
 // A set-operation tree: fitted to points, certified by the pruned octree, mended where the certificate finds
 // points on the wrong side, then proved like every candidate on its bytes and its default mesh.
+#include "pfgeom/base/parallel.h"
 #include "pfgeom/base/random.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
@@ -23,7 +24,15 @@ namespace {
 // come next.
 constexpr double kTreeShare = 0.97;
 constexpr double kChordShares[] = {0.25, 0.1};
-constexpr int kMostRounds = 6, kMostProofs = 3;
+constexpr int kMostProofs = 3;
+// Of mending. What is not nearly mended by then is hopeless: with more counter-examples than kFew, or more
+// cells than kMostCells (300,000 to 800,000 where it works). What is nearly mended comes to an end in up to
+// twelve rounds more, if it is mended to a little less than what is proved; else every certificate finds some
+// last points between the two (printed part of 68 quadrics).
+constexpr int kCalmRound = 2, kHopefulRounds = 6, kMostRounds = 20;
+constexpr std::size_t kFew = 300;
+constexpr double kCalmShare = 0.955;
+constexpr std::int64_t kMostCells = 3'000'000;
 // Where a union of ellipsoids fills a pit of the mesh, the ellipsoids around it are rounded again, each time
 // to so much less there: leaves that grow would cut the pit out of them one after the other.
 constexpr int kMostHolds = 4;
@@ -123,8 +132,7 @@ class TreeSearch {
         return found ? found : smallest_of(std::span(kOtherwise).first(settings), tolerance);
     }
 
-    // Of the settings, the certified tree with the fewest bits. The smallest is mended first: it may stay
-    // below what the others begin with.
+    // Of the settings, the certified tree with the fewest bits. They are mended side by side.
     std::optional<Certified> smallest_of(std::span<const Shares> settings, double tolerance) const {
         std::vector<Candidate> fits;
         for (const Shares& shares : settings) {
@@ -140,53 +148,71 @@ class TreeSearch {
             if (fits.back().fit.tree.nodes.empty()) return {};
             if (fits.back().fit.mostly_whole()) break;  // no seams that want other shares
         }
-        std::ranges::stable_sort(fits, {}, [](const Candidate& c) { return c.fit.bits; });
+        std::vector<std::optional<double>> bounds(fits.size());
+        const double most_bits = 8.0 * static_cast<double>(most_bytes_);
+        const int threads = std::max(1, thread_count(task_) / static_cast<int>(fits.size()));
+        parallel_chunks(fits.size(), 1, task_, [&](std::size_t i, std::size_t) {
+            if (fits[i].fit.bits < most_bits)
+                bounds[i] = certify(fits[i].fit, fits[i].options, quiet(task_, threads));
+        });
         std::optional<Certified> best;
-        double least = 8.0 * static_cast<double>(most_bytes_);
-        for (auto& [fit, options] : fits) {
-            if (fit.bits >= least) continue;
-            const std::optional<double> bound = certify(fit, options, least);
-            if (!bound) continue;
-            least = fit.bits;
-            best = {std::move(fit.tree), *bound};
+        double least = most_bits;
+        for (std::size_t i = 0; i < fits.size(); ++i) {
+            if (!bounds[i] || fits[i].fit.bits >= least) continue;
+            least = fits[i].fit.bits;
+            best = {std::move(fits[i].fit.tree), *bounds[i]};
         }
         return best;
     }
 
     // Mends the tree until the certificate finds nothing wrong: what it then proves, in the cube's
     // units. Nothing: it does not come to that, or the tree grows beyond `most_bits`.
-    std::optional<double> certify(TreeFit& fit, TreeFitOptions& options, double most_bits) const {
+    std::optional<double> certify(TreeFit& fit, TreeFitOptions& options, const Task& task) const {
         Random random(1);
         const double tolerance = options.tolerance;
+        const double most_bits = 8.0 * static_cast<double>(most_bytes_);
         double held = 1;
         for (int round = 0, holds = 0; round < kMostRounds;) {
-            TreeBoundOptions rough;
-            rough.finest = kRoughest;
-            rough.labels = kLabels;
-            const TreeBound bound = bound_tree(fit.tree, mesh_, bvh_, tolerance, rough, task_);
+            const double reach = round < kCalmRound ? tolerance : kCalmShare * tolerance;
+            TreeBound bound = rough_bound(fit.tree, reach, task);
             if (!bound.sides_defined || bound.counts.unresolved > kMostUnresolved) return {};
+            if (round >= kHopefulRounds && bound.counter_examples.size() > kFew) return {};
             double worst = 0;
             for (const LabelledPoint& p : bound.counter_examples) worst = std::max(worst, p.distance);
             const double proof = kProofShare * tolerance_;
             if (worst <= proof && bound.missed.empty()) {
                 TreeBoundOptions fine;
                 fine.labels = 0;
-                const TreeBound exact = bound_tree(fit.tree, mesh_, bvh_, proof, fine, task_);
+                const TreeBound exact = bound_tree(fit.tree, mesh_, bvh_, proof, fine, task);
                 if (exact.holds(tolerance_)) return exact.proved;
+                append(exact.counter_examples, bound.counter_examples);
+                append(exact.missed, bound.missed);
             }
             if (bound.counter_examples.empty() && bound.missed.empty()) return {};
             if (bound.counter_examples.empty() && fit.mostly_whole() && holds < kMostHolds) {
                 ++holds;
                 held *= kHold;
                 for (const LabelledPoint& p : bound.missed) options.held.push_back({p.point, held});
-                refit_set_tree(fit, mesh_, bvh_, options, task_);
+                refit_set_tree(fit, mesh_, bvh_, options, task);
                 continue;
             }
             ++round;
-            repair_set_tree(fit, bvh_, evidence(bound, tolerance, random), task_);
+            repair_set_tree(fit, bvh_, evidence(bound, reach, random), task);
             if (fit.bits > most_bits) return {};
         }
         return {};
+    }
+
+    TreeBound rough_bound(const SetTree& tree, double reach, const Task& task) const {
+        TreeBoundOptions rough;
+        rough.finest = kRoughest;
+        rough.labels = kLabels;
+        rough.max_cells = kMostCells;
+        return bound_tree(tree, mesh_, bvh_, reach, rough, task);
+    }
+
+    static void append(const std::vector<LabelledPoint>& more, std::vector<LabelledPoint>& list) {
+        list.insert(list.end(), more.begin(), more.end());
     }
 
     // All that the certificate has labelled; about its counter-examples, whose cells are small, points beside
