@@ -42,7 +42,7 @@ class Part(NamedTuple):
         points = np.einsum("mij,i->mj", corners, np.array(barycentric, dtype=float))
         q = self.quadrics[self.quadric]
         slope = np.linalg.norm(gradient(q, points), axis=1)
-        return np.abs(value(q, points)) / np.maximum(slope, 1e-9)  # none at the tip of a cone
+        return np.asarray(np.abs(value(q, points)) / np.maximum(slope, 1e-9))  # none at the tip of a cone
 
 
 def value(q: Array, p: Array) -> Array:
@@ -53,7 +53,8 @@ def value(q: Array, p: Array) -> Array:
 
 def gradient(q: Array, p: Array) -> Array:
     (x, y, z), (a, b, c, d, e, f, g, h, i, _) = p.T, q.T
-    return np.stack([2 * a * x + d * y + e * z + g, 2 * b * y + d * x + f * z + h, 2 * c * z + e * x + f * y + i], axis=1)
+    along_x, along_y, along_z = 2 * a * x + d * y + e * z, 2 * b * y + d * x + f * z, 2 * c * z + e * x + f * y
+    return np.stack([along_x + g, along_y + h, along_z + i], axis=1)
 
 
 def plane(normal: Sequence[float], through: Sequence[float]) -> Array:
@@ -80,6 +81,10 @@ class Arc(NamedTuple):
     to: Point
     centre: Point
     left: bool = True
+
+
+Piece = Line | Arc
+Loop = tuple[Point, list[Piece]]  # where it starts, and its pieces
 
 
 class Builder:
@@ -138,7 +143,8 @@ class Builder:
         _, own, same = np.unique(np.round(self._quadrics, 9) + 0.0, axis=0, return_index=True, return_inverse=True)
         quadric = np.repeat(same.reshape(-1), [len(f) for f in self._faces])
         proper = (faces != np.roll(faces, 1, axis=1)).all(axis=1)  # the others are points or edges of poles
-        return Part(pfgeom.Mesh(points[kept], faces[proper].astype(np.int32)), np.array(self._quadrics)[own], quadric[proper])
+        mesh = pfgeom.Mesh(points[kept], faces[proper].astype(np.int32))
+        return Part(mesh, np.array(self._quadrics)[own], quadric[proper])
 
     # Pieces of curves
 
@@ -153,7 +159,9 @@ class Builder:
         return 4 * self.steps(radius, np.pi / 2, double)
 
     def rows(self, length: float, radius: float, columns: int, angle: float = 2 * np.pi) -> int:
-        return max(1, int(np.ceil(length / (self.aspect * radius * angle / columns)))) if np.isfinite(self.aspect) else 1
+        if not np.isfinite(self.aspect):
+            return 1
+        return max(1, int(np.ceil(length / (self.aspect * radius * angle / columns))))
 
     def arc(self, start: Point, arc: Arc) -> tuple[Array, float, float]:
         """Its points, both ends included, radius and angle."""
@@ -168,7 +176,7 @@ class Builder:
 
     # Parts of solids
 
-    def outline(self, start: Point, pieces: Iterable[Line | Arc]) -> Array:
+    def outline(self, start: Point, pieces: Iterable[Piece]) -> Array:
         """The loop's points, each once."""
         points, at = [], start
         for piece in pieces:
@@ -179,7 +187,7 @@ class Builder:
             at = piece.to
         return np.concatenate(points)
 
-    def walls(self, start: Point, pieces: Sequence[Line | Arc], low: float, high: float) -> Array:
+    def walls(self, start: Point, pieces: Sequence[Piece], low: float, high: float) -> Array:
         """Extrudes a closed loop along z, material to the left; returns its points."""
         at = start
         for piece in pieces:
@@ -208,7 +216,7 @@ class Builder:
         t = 2 * np.pi * np.arange(n) / n
         return np.array(at) + radius * np.stack([np.cos(t), np.sin(t)], axis=1)
 
-    def lathe(self, start: Point, pieces: Sequence[Line | Arc], n: int, at: Point = (0, 0)) -> None:
+    def lathe(self, start: Point, pieces: Sequence[Piece], n: int, at: Point = (0, 0)) -> None:
         """Turns a profile of (radius, z) around z, material to the left. Arcs have their centre on the axis."""
         t = 2 * np.pi * np.arange(n + 1) / n
         t[-1] = 0
@@ -247,10 +255,10 @@ class Builder:
 # Loops. Outer ones are counter-clockwise; holes and pockets are the same loop the other way round.
 
 
-def rectangle(width: float, depth: float, radius: float = 0, at: Point = (0, 0)) -> tuple[Point, list[Line | Arc]]:
+def rectangle(width: float, depth: float, radius: float = 0, at: Point = (0, 0)) -> Loop:
     """Around a centre, with rounded corners."""
     ways = ((1, 0), (0, 1), (-1, 0), (0, -1))
-    pieces: list[Line | Arc] = []
+    pieces: list[Piece] = []
     for k, corner in enumerate(((1, -1), (1, 1), (-1, 1), (-1, -1))):
         tip = np.array(at) + np.array(corner) * (width / 2, depth / 2)
         into, out = np.array(ways[k]) * radius, np.array(ways[(k + 1) % 4]) * radius
@@ -268,10 +276,10 @@ def as_point(p: Array) -> Point:
     return float(p[0]), float(p[1])
 
 
-def backwards(start: Point, pieces: Sequence[Line | Arc]) -> tuple[Point, list[Line | Arc]]:
+def backwards(start: Point, pieces: Sequence[Piece]) -> Loop:
     """The same loop, the other way round."""
     ends = [start, *(piece.to for piece in pieces)]
-    turned: list[Line | Arc] = []
+    turned: list[Piece] = []
     for piece, to in zip(reversed(pieces), reversed(ends[:-1]), strict=True):
         turned.append(Line(to, piece.wall) if isinstance(piece, Line) else Arc(to, piece.centre, not piece.left))
     return ends[-1], turned
@@ -300,7 +308,7 @@ def hole(b: Builder, at: Point, radius: float, low: float, high: float) -> Array
     return b.circle(at, radius, n)
 
 
-def plate(b: Builder, outline: tuple[Point, list[Line | Arc]], height: float, holes: Sequence[tuple[Point, float]]) -> None:
+def plate(b: Builder, outline: Loop, height: float, holes: Sequence[tuple[Point, float]]) -> None:
     loop = b.walls(*outline, 0, height)
     rims = [hole(b, at, radius, 0, height) for at, radius in holes]
     b.cap(0, False, loop, rims)
@@ -338,8 +346,9 @@ def rounded_box(b: Builder, size: Sequence[float] = (60, 40, 25), r: float = 6) 
         turn = quarter_turn(axis)
         b.frame(turn)
         x, y, z = (turn.T @ np.array(size)) / 2  # along the frame's own axes
+        flat = np.array([[i * (x - r), j * (y - r)] for i, j in ((1, -1), (1, 1), (-1, 1), (-1, -1))])
         for side in (-1, 1):
-            b.cap(side * z, side > 0, np.array([[i * (x - r), j * (y - r)] for i, j in ((1, -1), (1, 1), (-1, 1), (-1, -1))]))
+            b.cap(side * z, side > 0, flat)
         for i in (-1, 1):
             for j in (-1, 1):
                 rim = np.stack([i * (x - r + r * cosine), j * (y - r + r * sine)], axis=1)
@@ -378,15 +387,16 @@ def flanged_tube(b: Builder) -> None:
 
 def stepped_shaft(b: Builder) -> None:
     """Three diameters, conical chamfers at the ends and at one step."""
-    profile = [Line((8, 0)), Line((10, 2)), Line((10, 30)), Line((14, 30)), Line((16, 32)), Line((16, 60)), Line((12, 60)),
-               Line((12, 85)), Line((10.5, 88)), Line((0, 88))]  # fmt: skip
-    b.lathe((0, 0), profile, b.around(16))
+    below = [Line((8, 0)), Line((10, 2)), Line((10, 30)), Line((14, 30)), Line((16, 32)), Line((16, 60))]
+    above = [Line((12, 60)), Line((12, 85)), Line((10.5, 88)), Line((0, 88))]
+    b.lathe((0, 0), [*below, *above], b.around(16))
 
 
 def dome(b: Builder) -> None:
     """Half a hollow sphere, 3 mm thick."""
     n = b.around(30, double=True)
-    b.lathe((27, 0), [Line((30, 0)), Arc((0, 30), (0, 0)), Line((0, 27), wall=False), Arc((27, 0), (0, 0), left=False)], n)
+    outside: list[Piece] = [Line((30, 0)), Arc((0, 30), (0, 0)), Line((0, 27), wall=False)]
+    b.lathe((27, 0), [*outside, Arc((27, 0), (0, 0), left=False)], n)
 
 
 def capsule(b: Builder) -> None:
@@ -397,7 +407,7 @@ def capsule(b: Builder) -> None:
 def ball_end(b: Builder) -> None:
     """A pin with a ball of a larger radius, chamfered."""
     z = float(np.sqrt(14**2 - 7**2))
-    profile = [Line((6, 0)), Line((7, 1)), Line((7, 40 - z)), Arc((0, 54), (0, 40))]
+    profile: list[Piece] = [Line((6, 0)), Line((7, 1)), Line((7, 40 - z)), Arc((0, 54), (0, 40))]
     b.lathe((0, 0), profile, b.around(14, double=True))
 
 
@@ -422,30 +432,31 @@ def hub_gear(b: Builder) -> None:
 
 def bracket(b: Builder) -> None:
     """An angle with a fillet inside, rounded outside, and two holes in each leg."""
-    pieces = [Line((60, 0), wall=False), Line((60, 8)), Line((18, 8), wall=False), Arc((8, 18), (18, 18), left=False),
-              Line((8, 50), wall=False), Line((0, 50)), Line((0, 14), wall=False), Arc((14, 0), (14, 14))]  # fmt: skip
-    loop = b.walls((14, 0), pieces, 0, 40)
+    flat: list[Piece] = [Line((60, 0), wall=False), Line((60, 8)), Line((18, 8), wall=False)]
+    fillet = Arc((8, 18), (18, 18), left=False)
+    upright: list[Piece] = [Line((8, 50), wall=False), Line((0, 50)), Line((0, 14), wall=False)]
+    loop = b.walls((14, 0), [*flat, fillet, *upright, Arc((14, 0), (14, 14))], 0, 40)
     b.cap(0, False, loop)
     b.cap(40, True, loop)
     turns = (quarter_turn(1), quarter_turn(2))  # the upright leg's (y, z), the flat one's (z, x)
     for turn, far, spots in ((turns[0], 50, (28, 42)), (turns[1], 60, (30, 50))):
-        upright = turn is turns[0]
+        stands = turn is turns[0]
         b.frame(turn)
-        places = [(s, 20.0) if upright else (20.0, s) for s in spots]
+        places = [(s, 20.0) if stands else (20.0, s) for s in spots]
         rims = [hole(b, at, 3.5, 0, 8) for at in places]
         for level, near in ((0, 14), (8, 18)):
             corners = [(near, 0), (far, 0), (far, 40), (near, 40)]
-            points = np.array([c if upright else c[::-1] for c in corners], dtype=float)
+            points = np.array([c if stands else c[::-1] for c in corners], dtype=float)
             b.cap(level, level > 0, points, rims)
 
 
 def channel(b: Builder) -> None:
     """A U with fillets inside and rounded edges."""
-    pieces = [Line((22, 0)), Arc((30, 8), (22, 8)), Line((30, 35)), Line((25, 35)), Line((25, 10)),
-              Arc((20, 5), (20, 10), left=False), Line((-20, 5)), Arc((-25, 10), (-20, 10), left=False), Line((-25, 35)),
-              Line((-30, 35)), Line((-30, 8)), Arc((-22, 0), (-22, 8))]  # fmt: skip
+    right: list[Piece] = [Line((22, 0)), Arc((30, 8), (22, 8)), Line((30, 35)), Line((25, 35)), Line((25, 10))]
+    inside: list[Piece] = [Arc((20, 5), (20, 10), left=False), Line((-20, 5)), Arc((-25, 10), (-20, 10), left=False)]
+    left: list[Piece] = [Line((-25, 35)), Line((-30, 35)), Line((-30, 8)), Arc((-22, 0), (-22, 8))]
     b.frame(quarter_turn(1))
-    loop = b.walls((-22, 0), pieces, 0, 70)
+    loop = b.walls((-22, 0), [*right, *inside, *left], 0, 70)
     b.cap(0, False, loop)
     b.cap(70, True, loop)
 
@@ -467,14 +478,16 @@ def countersunk(b: Builder) -> None:
 
 def pockets(b: Builder) -> None:
     """Blind: round ones of three depths, one with a conical floor, one with a spherical one."""
-    z = 20 - float(np.sqrt(10**2 - 6**2))
-    floors = {(-30.0, 10.0): [Line((6, 8)), Line((0, 8))], (-10.0, 10.0): [Line((6, 12)), Line((0, 12))],
-              (10.0, 10.0): [Line((6, 5)), Line((0, 5))], (30.0, 10.0): [Line((6, 10)), Line((0, 6.5))],
-              (-20.0, -12.0): [Arc((0, 10), (0, 20), left=False)]}  # fmt: skip
-    floors[20.0, -12.0] = [Line((8, 14)), Line((4, 14)), Line((4, 9)), Line((0, 9))]
+    floors: list[tuple[Point, float, list[Piece]]] = [
+        ((-30, 10), 6, [Line((6, 8)), Line((0, 8))]),
+        ((-10, 10), 6, [Line((6, 12)), Line((0, 12))]),
+        ((10, 10), 6, [Line((6, 5)), Line((0, 5))]),
+        ((30, 10), 6, [Line((6, 10)), Line((0, 6.5))]),
+        ((-20, -12), 10, [Arc((0, 10), (0, 20), left=False)]),
+        ((20, -12), 8, [Line((8, 14)), Line((4, 14)), Line((4, 9)), Line((0, 9))]),
+    ]
     loop, rims = b.walls(*rectangle(84, 48, 5), 0, 20), []
-    for at, floor in floors.items():
-        radius = 10 if isinstance(floor[0], Arc) else floor[0].to[0]
+    for at, radius, floor in floors:
         n = b.around(radius, double=isinstance(floor[0], Arc))
         b.lathe((radius, 20), floor, n, at)
         rims.append(b.circle(at, radius, n))
@@ -503,9 +516,28 @@ def funnel(b: Builder) -> None:
 
 PARTS: dict[str, Callable[[Builder], None]] = {
     f.__name__: f
-    for f in (plate_of_four, plate_of_nine, rounded_plate, slotted_plate, rounded_box, cup, tube, flanged_tube,
-              stepped_shaft, dome, capsule, ball_end, gear, hub_gear, bracket, channel, countersunk, pockets, milled_pocket,
-              funnel)  # fmt: skip
+    for f in (
+        plate_of_four,
+        plate_of_nine,
+        rounded_plate,
+        slotted_plate,
+        rounded_box,
+        cup,
+        tube,
+        flanged_tube,
+        stepped_shaft,
+        dome,
+        capsule,
+        ball_end,
+        gear,
+        hub_gear,
+        bracket,
+        channel,
+        countersunk,
+        pockets,
+        milled_pocket,
+        funnel,
+    )
 }
 
 
@@ -516,9 +548,9 @@ def fin(b: Builder, thick: float) -> Array:
     """Upright on a block, askew."""
     b.frame(askew())
     t = thick / 2
-    pieces = [Line((20, 0)), Line((20, 10)), Line((t, 10)), Line((t, 30)), Line((-t, 30)), Line((-t, 10)), Line((-20, 10)),
-              Line((-20, 0))]  # fmt: skip
-    loop = b.walls((-20, 0), pieces, 0, 40)
+    right = [Line((20, 0)), Line((20, 10)), Line((t, 10)), Line((t, 30))]
+    left = [Line((-t, 30)), Line((-t, 10)), Line((-20, 10)), Line((-20, 0))]
+    loop = b.walls((-20, 0), [*right, *left], 0, 40)
     b.cap(0, False, loop)
     b.cap(40, True, loop)
     return spread((0, 0), (11, 29), (1, 39)) @ b.turn.T
@@ -526,8 +558,9 @@ def fin(b: Builder, thick: float) -> Array:
 
 def thin_tube(b: Builder, thick: float) -> Array:
     """Above a foot of 4 mm."""
-    profile = [Line((24, 0)), Line((24, 6)), Line((20, 6)), Line((20, 40)), Line((20 - thick, 40)), Line((20 - thick, 0))]
-    b.lathe((20 - thick, 0), profile, b.around(24))
+    inner = 20 - thick
+    profile = [Line((24, 0)), Line((24, 6)), Line((20, 6)), Line((20, 40)), Line((inner, 40)), Line((inner, 0))]
+    b.lathe((inner, 0), profile, b.around(24))
     return turned(20 - thick / 2, spread((0, 2 * np.pi), (7, 39)))
 
 
@@ -535,7 +568,7 @@ def thin_dome(b: Builder, thick: float) -> Array:
     """Half a hollow sphere."""
     r = 20 - thick
     pole = Line((0, r), wall=False)
-    pieces = [Line((20, 0)), Arc((0, 20), (0, 0)), pole, Arc((r, 0), (0, 0), left=False)]
+    pieces: list[Piece] = [Line((20, 0)), Arc((0, 20), (0, 0)), pole, Arc((r, 0), (0, 0), left=False)]
     b.lathe((r, 0), pieces, b.around(20, double=True))
     angle, height = spread((0, 2 * np.pi), (0.03, 0.98)).T
     around = np.stack([np.cos(angle), np.sin(angle)], axis=1) * np.sqrt(1 - height[:, None] ** 2)
@@ -553,11 +586,12 @@ def thin_floor(b: Builder, thick: float) -> Array:
 def thin_flange(b: Builder, thick: float) -> Array:
     """Around a pin, askew."""
     b.frame(askew())
-    profile = [Line((6, 0)), Line((6, 15)), Line((20, 15)), Line((20, 15 + thick)), Line((6, 15 + thick)), Line((6, 30)),
-               Line((0, 30))]  # fmt: skip
-    b.lathe((0, 0), profile, b.around(20))
+    top = 15 + thick
+    flange = [Line((20, 15)), Line((20, top)), Line((6, top))]
+    b.lathe((0, 0), [Line((6, 0)), Line((6, 15)), *flange, Line((6, 30)), Line((0, 30))], b.around(20))
     radius, angle = spread((7, 19), (0, 2 * np.pi)).T
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(len(angle), 15 + thick / 2)], axis=1) @ b.turn.T
+    middle = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(len(angle), 15 + thick / 2)], axis=1)
+    return middle @ b.turn.T
 
 
 def spread(*ranges: Point, count: int = 1500) -> Array:

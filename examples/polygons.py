@@ -1,6 +1,7 @@
 """Triangles of polygons with holes: holes are joined to the outline by bridges, then ears are cut."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ def triangulate(outer: Array, holes: Sequence[Array] = ()) -> tuple[Array, NDArr
     first = np.cumsum([0, *map(len, loops)])
     ring = list(range(first[1]))
     # Rightmost holes first: what a bridge to the right meets is outline already.
-    rows = [list(range(a, b)) for a, b in zip(first[1:], first[2:], strict=False)]
+    rows = [list(range(a, b)) for a, b in pairwise(first[1:])]
     for hole in sorted(rows, key=lambda r: -points[r, 0].max()):
         ring = with_hole(points, ring, hole)
     return points, cut_ears(points, ring)
@@ -41,7 +42,8 @@ def with_hole(points: Array, ring: list[int], hole: list[int]) -> list[int]:
 
 
 def turn(a: Array, b: Array, c: Array) -> Array:
-    return np.asarray((b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0]))
+    ab, ac = b - a, c - a
+    return np.asarray(ab[..., 0] * ac[..., 1] - ab[..., 1] * ac[..., 0])
 
 
 def sees(p: Array, q: Array, a: Array, b: Array) -> bool:

@@ -10,9 +10,28 @@ import pfgeom
 import pytest
 
 TOLERANCE = 1e-3
-NAMES = ["plate_of_four", "plate_of_nine", "rounded_plate", "slotted_plate", "rounded_box", "cup", "tube", "flanged_tube",
-         "stepped_shaft", "dome", "capsule", "ball_end", "gear", "hub_gear", "bracket", "channel", "countersunk", "pockets",
-         "milled_pocket", "funnel"]  # fmt: skip
+NAMES = [
+    "plate_of_four",
+    "plate_of_nine",
+    "rounded_plate",
+    "slotted_plate",
+    "rounded_box",
+    "cup",
+    "tube",
+    "flanged_tube",
+    "stepped_shaft",
+    "dome",
+    "capsule",
+    "ball_end",
+    "gear",
+    "hub_gear",
+    "bracket",
+    "channel",
+    "countersunk",
+    "pockets",
+    "milled_pocket",
+    "funnel",
+]
 
 
 @pytest.fixture
@@ -41,12 +60,35 @@ def test_parts_are_exact_closed_and_within_their_chord(parts, name):
     assert 0.3 * chord < missed / part.diagonal <= 1.01 * chord  # to first order
 
 
-@pytest.mark.parametrize("name", ["plate_of_four", "cup", "countersunk"])
-@pytest.mark.parametrize("chord", [0.28])
-def test_few_functions_are_found_again(parts, name, chord):
-    part = parts.make(name, chord * TOLERANCE)
+@pytest.mark.parametrize("name", ["plate_of_four", "cup", "tube", "countersunk"])
+def test_few_functions_are_found_again_at_two_densities(parts, name):
+    coarse, fine = (parts.make(name, chord * TOLERANCE) for chord in (0.28, 0.1))
+    assert len(fine.mesh.faces) > 1.5 * len(coarse.mesh.faces)
+    models = [compressed(part) for part in (coarse, fine)]
+    functions = [model.functions.surface + model.functions.separators for model in models]
+    assert max(functions) <= 1.3 * coarse.functions
+    assert max(functions) - min(functions) <= 1
+    assert models[1].nbytes <= 1.1 * models[0].nbytes
+    assert_same_solid(models, fine.mesh)
+
+
+def compressed(part):
+    """A certified tree."""
     model = pfgeom.compress(part.mesh, tolerance=TOLERANCE)
     assert [island["candidate"] for island in model.report["islands"]] == ["tree"]
-    assert model.functions.surface <= 1.3 * part.functions
     assert model.functions_certified
     assert model.bound_functions <= model.tolerance
+    return model
+
+
+def assert_same_solid(models, mesh):
+    """Points over faces lie outside, points under them inside, where no side of the solid is near."""
+    corners = mesh.vertices[mesh.faces[:: 1 + len(mesh.faces) // 400]]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    step = 1.5 * models[0].tolerance * normal / np.linalg.norm(normal, axis=1)[:, None]
+    for side, inside in ((1, False), (-1, True)):
+        points = corners.mean(axis=1) + side * step
+        clear = points[measure.distances(points, *mesh) > 1.4 * models[0].tolerance]
+        assert len(clear) > len(points) / 2
+        for model in models:
+            assert (model.contains(clear) == inside).all()

@@ -119,8 +119,10 @@ bool label_changes_near_quadrics(const TreePruner& pruner, const PrunedTree& tre
         const double room = ball.radius - norm(p - ball.centre),
                      around = std::min(kAround * ball.radius, room);
         if (!(around > 0)) return false;
-        for (double step = around; step <= room; step *= kLonger) {
+        double step = around;
+        while (step <= room) {
             if (differs_at(p + along * step) || differs_at(p - along * step)) return true;
+            step *= kLonger;
         }
         return std::any_of(directions().begin(), directions().end(),
                            [&](const Vec3& direction) { return differs_at(p + direction * around); });

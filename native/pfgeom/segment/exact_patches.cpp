@@ -43,7 +43,7 @@ struct LocalQuadric {
         for (std::size_t i = 0; i < 6; ++i) q.c[i] /= radius;
         const Quadric squares{{q.c[0], q.c[1], q.c[2], q.c[3], q.c[4], q.c[5]}};
         const Vec3 slope = squares.gradient(centre), linear{q.c[6], q.c[7], q.c[8]};
-        for (int axis = 0; axis < 3; ++axis) q.c[static_cast<std::size_t>(6 + axis)] -= slope[axis];
+        for (int axis = 0; axis < 3; ++axis) q.c[6 + static_cast<std::size_t>(axis)] -= slope[axis];
         q.c[9] = radius * q.c[9] - dot(linear, centre) + squares.value(centre);
         return q;
     }
@@ -224,10 +224,10 @@ double exact_share(const TriangleMesh& mesh, const Task& task) {
     EdgeTable(mesh.faces, mesh.vertices.size()).for_each([&](std::span<const EdgeUse> uses) {
         if (uses.size() != 2) return;
         const auto& [a, b, c] = mesh.faces[uses[0].face()];
-        const Vec3 n =
-            normalized(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+        const Vec3& corner = mesh.vertices[a];
+        const Vec3 n = normalized(cross(mesh.vertices[b] - corner, mesh.vertices[c] - corner));
         const bool flat = std::ranges::all_of(mesh.faces[uses[1].face()], [&](std::int32_t v) {
-            return std::abs(dot(n, mesh.vertices[v] - mesh.vertices[a])) <= near;
+            return std::abs(dot(n, mesh.vertices[v] - corner)) <= near;
         });
         if (flat) exact[uses[0].face()] = exact[uses[1].face()] = 1;
     });
