@@ -33,6 +33,11 @@ class Part(NamedTuple):
         return len(self.quadrics)
 
     @property
+    def curved(self) -> int:
+        """Those that are no planes, which a pair of parallel ones or a box could stand for."""
+        return int((np.abs(self.quadrics[:, :6]) > 1e-9).any(axis=1).sum())
+
+    @property
     def diagonal(self) -> float:
         return float(np.linalg.norm(np.ptp(self.mesh.vertices, axis=0)))
 

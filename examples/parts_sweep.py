@@ -30,7 +30,7 @@ def row(name: str, chord: float, tolerance: float, aspect: float = np.inf) -> bo
     count = model.functions.surface + model.functions.separators
     holds = model.functions_certified and model.certified and model.bound_functions <= model.tolerance
     good = holds and found == ["tree"] and count <= 1.3 * part.functions
-    made = f"{name:15} {chord:6g} {len(part.mesh.faces):9,} {part.functions:7}"
+    made = f"{name:15} {chord:6g} {len(part.mesh.faces):9,} {part.functions:7} {part.curved:6}"
     took = f"{count:9} {count / part.functions:6.2f} {model.nbytes:7,} {'yes' if holds else 'no':>9} {seconds:7.1f}"
     print(f"{made} {took}  {'+'.join(found)}", flush=True)
     return good
@@ -43,7 +43,7 @@ def main() -> None:
     parser.add_argument("--tolerance", type=float, default=1e-3, metavar="T", help="of the diagonal (default 1e-3)")
     parser.add_argument("--grow", metavar="PART", help="one part, in square cells, up to a million triangles")
     args = parser.parse_args()
-    print("part             chord triangles made of functions  ratio   bytes certified seconds  candidate")
+    print("part             chord triangles made of curved functions  ratio   bytes certified seconds  candidate")
     if args.grow:
         rows = [row(args.grow, chord, args.tolerance, 1) for chord in GROWING]
     else:
