@@ -4,7 +4,6 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
-#include "pfgeom/segment/exact_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +16,6 @@ constexpr double kSeamShare = 1.0 / 16;
 // Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
 constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
-// A larger one is tried as a tree if so much of its area is an exact tessellation: parts and unions of
-// ellipsoids have 0.9 to 1, scans less than 0.1.
-constexpr double kTessellated = 0.5;
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
@@ -107,9 +103,7 @@ class Compressor {
     std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) const {
         const MeshEstimate estimate = estimate_mesh(goal, task);
         const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
-        std::optional<Outcome> best;
-        if (!large || exact_share(goal.mesh, task) >= kTessellated)
-            best = try_tree(goal, estimate.likely, task);
+        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
         if (best && best->bytes < estimate.least && !all) return best;
         Outcome plain = try_mesh(goal, task);
         // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
@@ -123,16 +117,11 @@ class Compressor {
     }
 
     std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) const {
-        std::optional<Outcome> best;
-        std::size_t most_bytes = kNoLimit;
-        if (goal.mesh.faces.size() <= kQuickMesh) {
-            const MeshEstimate estimate = estimate_mesh(goal, task);
-            best = try_tree(goal, estimate.likely, task);
-            if (best && best->bytes < estimate.least && goal.effort != Effort::best) return best;
-            take_cheaper(try_mesh(goal, task), best);
-            if (best) most_bytes = best->bytes;
-        }
-        take_cheaper(try_hierarchy(goal, most_bytes, task), best);
+        const MeshEstimate estimate = estimate_mesh(goal, task);
+        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
+        if (best && best->bytes < estimate.least && goal.effort != Effort::best) return best;
+        if (goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
+        take_cheaper(try_hierarchy(goal, best ? best->bytes : kNoLimit, task), best);
         return best;
     }
 
