@@ -238,7 +238,13 @@ class Compressor {
         const std::size_t most = by_max ? 50'000 : options.samples;
         options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, most);
         if (by_max) options.certify_below = tolerance_;
+        const std::optional<Deviation> proved = by_max ? proved_of_islands(mesh) : std::nullopt;
+        options.bound = !proved;
         result_.report.deviation = measure_deviation(input_, mesh, options, quiet(task_, task_.threads));
+        if (proved) {
+            result_.report.deviation.a_to_b.max_bound = result_.report.deviation.b_to_a.max_bound = 0;
+            take_maximum(*proved, result_.report.deviation);
+        }
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
         model_.promise.bound_mesh = d.certified ? d.max_bound() : d.max();
@@ -250,6 +256,38 @@ class Compressor {
         const double reached =
             options_.metric == Metric::rms ? model_.promise.rms : model_.promise.bound_mesh;
         return reached <= tolerance_;
+    }
+
+    // What is proved of the islands, if together they are the default mesh, vertex by vertex: no point is
+    // farther from all of a surface than from a part of it. Nothing if the input is more than the islands, or
+    // was moved.
+    std::optional<Deviation> proved_of_islands(const TriangleMesh& mesh) const {
+        if (prepared_.defects.degenerate_faces > 0 || prepared_.defects.seam_edges > 0) return {};
+        Deviation all;
+        all.certified = true;
+        std::size_t at = 0;
+        for (const std::size_t i : by_nesting()) {
+            if (!is_function(i) || !chosen_[i]->deviation.certified) return {};
+            const std::vector<Vec3>& part = chosen_[i]->mesh.vertices;
+            if (part.size() > mesh.vertices.size() - at ||
+                !std::equal(part.begin(), part.end(),
+                            mesh.vertices.begin() + static_cast<std::ptrdiff_t>(at)))
+                return {};
+            at += part.size();
+            take_maximum(chosen_[i]->deviation, all);
+        }
+        return at == mesh.vertices.size() ? std::optional(all) : std::nullopt;
+    }
+
+    // Of two certified deviations.
+    static void take_maximum(const Deviation& more, Deviation& deviation) {
+        for (const auto side : {&Deviation::a_to_b, &Deviation::b_to_a}) {
+            OneSided& mine = deviation.*side;
+            const OneSided& other = more.*side;
+            if (other.max > mine.max) mine.max = other.max, mine.worst = other.worst;
+            mine.max_bound = std::max(mine.max_bound, other.max_bound);
+        }
+        deviation.certified = more.certified;
     }
 
     // A tree alone was made a mesh when it was proved.
