@@ -230,7 +230,9 @@ class Compressor {
         model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
         const Result<Model> first = decode(encode(model_));
         if (!first) return false;  // asks for more work than its size allows
-        const TriangleMesh mesh = default_mesh(*first);
+        const bool proved = reads_as_proved(*first);
+        const TriangleMesh mesh =
+            proved ? mesh_of_islands() : to_mesh(*first, {}, quiet(task_, task_.threads));
         task_.report(0.96, "measure");
         DeviationOptions options;
         // Of a maximum, which is proved, samples tell only the rms beside it.
@@ -238,12 +240,12 @@ class Compressor {
         const std::size_t most = by_max ? 50'000 : options.samples;
         options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, most);
         if (by_max) options.certify_below = tolerance_;
-        const std::optional<Deviation> proved = by_max ? proved_of_islands(mesh) : std::nullopt;
-        options.bound = !proved;
+        const std::optional<Deviation> maximum = by_max && proved ? maximum_of_islands() : std::nullopt;
+        options.bound = !maximum;
         result_.report.deviation = measure_deviation(input_, mesh, options, quiet(task_, task_.threads));
-        if (proved) {
+        if (maximum) {
             result_.report.deviation.a_to_b.max_bound = result_.report.deviation.b_to_a.max_bound = 0;
-            take_maximum(*proved, result_.report.deviation);
+            take_maximum(*maximum, result_.report.deviation);
         }
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
@@ -258,25 +260,31 @@ class Compressor {
         return reached <= tolerance_;
     }
 
-    // What is proved of the islands, if together they are the default mesh, vertex by vertex: no point is
-    // farther from all of a surface than from a part of it. Nothing if the input is more than the islands, or
-    // was moved.
-    std::optional<Deviation> proved_of_islands(const TriangleMesh& mesh) const {
+    // Does the file hold the islands' functions, and nothing else, as they were when they were made meshes?
+    bool reads_as_proved(const Model& decoded) const {
+        for (std::size_t i = 0; i < chosen_.size(); ++i) {
+            if (!is_function(i)) return false;
+        }
+        return decoded.functions == model_.functions && decoded.objects == model_.objects;
+    }
+
+    TriangleMesh mesh_of_islands() const {
+        TriangleMesh mesh;
+        for (const std::size_t i : by_nesting()) append(chosen_[i]->mesh, mesh);
+        return mesh;
+    }
+
+    // What is proved of the islands: no point is farther from all of a surface than from a part of it.
+    // Nothing if the input is more than the islands, or was moved.
+    std::optional<Deviation> maximum_of_islands() const {
         if (prepared_.defects.degenerate_faces > 0 || prepared_.defects.seam_edges > 0) return {};
         Deviation all;
         all.certified = true;
-        std::size_t at = 0;
-        for (const std::size_t i : by_nesting()) {
-            if (!is_function(i) || !chosen_[i]->deviation.certified) return {};
-            const std::vector<Vec3>& part = chosen_[i]->mesh.vertices;
-            if (part.size() > mesh.vertices.size() - at ||
-                !std::equal(part.begin(), part.end(),
-                            mesh.vertices.begin() + static_cast<std::ptrdiff_t>(at)))
-                return {};
-            at += part.size();
-            take_maximum(chosen_[i]->deviation, all);
+        for (const std::optional<Outcome>& island : chosen_) {
+            if (!island->deviation.certified) return {};
+            take_maximum(island->deviation, all);
         }
-        return at == mesh.vertices.size() ? std::optional(all) : std::nullopt;
+        return all;
     }
 
     // Of two certified deviations.
@@ -288,18 +296,6 @@ class Compressor {
             mine.max_bound = std::max(mine.max_bound, other.max_bound);
         }
         deviation.certified = more.certified;
-    }
-
-    // A tree alone was made a mesh when it was proved.
-    TriangleMesh default_mesh(const Model& decoded) const {
-        if (chosen_.size() == 1 && is_function(0)) {
-            const Object &object = decoded.objects.front(), &proved = chosen_[0]->object;
-            const auto* tree = std::get_if<SetTree>(&object.shape);
-            const auto* same = std::get_if<SetTree>(&proved.shape);
-            if (tree && same && *tree == *same && object.mesh_code == proved.mesh_code)
-                return chosen_[0]->mesh;
-        }
-        return to_mesh(decoded, {}, quiet(task_, task_.threads));
     }
 
     void fill_report(const TriangleMesh& mesh) {

@@ -53,7 +53,8 @@ std::optional<Outcome> try_quadric(const Goal& goal, const Task& task) {
     outcome.functions[0].base = fit->quadric;
     outcome.object.frame = target.frame;
     outcome.object.shape = single_function(goal.inward);
-    outcome.object.mesh_code = mesh_code_for(goal, goal.tolerance / 4);
+    outcome.object.mesh_code =
+        mesh_code_for(goal, (fit->max < 0.4 * tolerance ? 0.5 : 0.25) * goal.tolerance);
     prove(goal, outcome, task);
     if (!outcome.holds) return {};
     const double looked =

@@ -144,8 +144,7 @@ class TreeSearch {
         parallel_chunks(fits.size(), 1, task_, [&](std::size_t i, std::size_t) {
             auto& [fit, options] = fits[i];
             if (fit.bits < most_bits)
-                bounds[i] = mend_tree(fit, options, target_, certified, most_bits,
-                                      quiet(task_, threads));
+                bounds[i] = mend_tree(fit, options, target_, certified, most_bits, quiet(task_, threads));
         });
         std::optional<Certified> best;
         double least = most_bits;
