@@ -25,7 +25,7 @@ constexpr double kTessellated = 0.5;
 // rest: they are longest where the quadrics are not at their worst, and the mesh is measured. Shorter ones
 // come next.
 constexpr double kTreeShare = 0.97;
-constexpr double kChordShares[] = {0.25, 0.1};
+constexpr double kChordShares[] = {0.25, 0.16, 0.1};
 constexpr int kMostProofs = 3;
 // A region costs at least so many bytes.
 constexpr std::size_t kBytesOfRegion = 6;

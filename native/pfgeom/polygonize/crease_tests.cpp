@@ -1,6 +1,7 @@
 #include "pfgeom/polygonize/crease_tests.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pfgeom {
@@ -12,6 +13,9 @@ constexpr double kThinnest =
 constexpr int kMostNeighbours = 16;  // of a vertex after a merge
 // Sine of the least angle between two quadrics at which their curve's direction means anything.
 constexpr double kLeastSine = 0.1;
+// Cosine of the normals at an edge so sharp, or a valley so narrow, that the middle of a chord may be far
+// from it and near both quadrics.
+constexpr double kSharp = -0.5;
 
 double thinness(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double side = std::max({squared_norm(b - a), squared_norm(c - a), squared_norm(c - b)});
@@ -25,6 +29,14 @@ double CreaseTests::height(Label label, std::int32_t a, std::int32_t b) const {
     return std::abs(dot(turn, at(b) - at(a))) / 8;
 }
 
+double CreaseTests::distance_to_curve(Label one, Label other, const Vec3& p, double reach) const {
+    constexpr double kAccuracy = 1e-3;  // of the edge
+    const std::array<Label, 2> both{one, other};
+    Vec3 foot = p;
+    surface_.project(both, reach, kAccuracy * reach, foot);
+    return norm(foot - p);
+}
+
 double CreaseTests::height(Label one, Label other, std::int32_t a, std::int32_t b) const {
     if (one == other) return height(one, a, b);
     double most = std::max(height(one, a, b), height(other, a, b));
@@ -33,6 +45,8 @@ double CreaseTests::height(Label one, Label other, std::int32_t a, std::int32_t 
     const double sa = norm(ta), sb = norm(tb);
     if (sa > kLeastSine && sb > kLeastSine)
         most = std::max(most, norm(tb / sb - ta / sa) * norm(at(b) - at(a)) / 8);
+    if (dot(surface_.normal(one, at(a)), surface_.normal(other, at(a))) < kSharp)
+        most = std::max(most, distance_to_curve(one, other, (at(a) + at(b)) / 2, norm(at(b) - at(a))));
     return most;
 }
 

@@ -31,6 +31,8 @@ class CreaseTests {
   private:
     const Vec3& at(std::int32_t v) const { return m_.mesh.position[v]; }
     double height(Label one, Label other, std::int32_t a, std::int32_t b) const;
+    // Of p to the curve in which two quadrics meet; 0 if there is none within reach.
+    double distance_to_curve(Label one, Label other, const Vec3& p, double reach) const;
     bool keeps_creases(std::int32_t h) const;
     bool keeps_faces(std::int32_t h, double thinnest, double facing) const;
 

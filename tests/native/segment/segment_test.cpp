@@ -45,7 +45,10 @@ TEST(Segment, ACylinderIsAMantleAndASlab) {
 
 TEST(Segment, AnEllipsoidIsOneRegion) {
     const TriangleMesh mesh = shapes::ellipsoid({0.9, 0.5, 0.15}, 5);
-    const auto regions = segment(mesh, {0.002});
+    const auto exact = find_exact_patches(mesh);
+    SegmentOptions options{0.002};
+    options.exact = exact;
+    const auto regions = segment(mesh, options);
     EXPECT_EQ(regions.size(), 1U);
     expect_sound(mesh, regions, 0.002);
 }
