@@ -60,7 +60,7 @@ Outcome try_mesh(const Goal& goal, const Task& task) {
         return attempt(goal, 0, task);
     }
     Outcome outcome;
-    for (const double share : {1.0, 0.95, 0.85, 0.6, 0.0}) {
+    for (const double share : {1.0, 0.95, 0.85, 0.7, 0.5, 0.0}) {
         outcome = attempt(goal, share, task);
         if (outcome.holds) break;
     }

@@ -26,6 +26,8 @@ constexpr double kTessellated = 0.5;
 // come next.
 constexpr double kTreeShare = 0.97;
 constexpr double kChordShares[] = {0.25, 0.16, 0.1};
+constexpr double kLongChordShares[] = {0.4, 0.6};
+constexpr std::size_t kMostGrowth = 3;  // triangles of the mesh for each of the input
 constexpr int kMostProofs = 3;
 // A region costs at least so many bytes.
 constexpr std::size_t kBytesOfRegion = 6;
@@ -91,13 +93,25 @@ class TreeSearch {
             double reached = 0;
             for (const double chord : kChordShares) {
                 Outcome outcome = prove_tree(*found, chord * goal_.tolerance);
-                if (outcome.holds) return outcome;
+                if (outcome.holds) return slimmer(*found, std::move(outcome));
                 if (outcome.mesh.faces.empty()) return {};
                 reached = outcome.deviation.max() / goal_.tolerance;
             }
             share *= std::clamp(0.99 / reached, 0.7, 0.97);
         }
         return {};
+    }
+
+    // A coarse input shall not come back as a mesh of many times its triangles: then longer chords, if they
+    // hold as well.
+    Outcome slimmer(const Certified& found, Outcome outcome) const {
+        for (const double chord : kLongChordShares) {
+            if (outcome.mesh.faces.size() <= kMostGrowth * goal_.mesh.faces.size()) break;
+            Outcome longer = prove_tree(found, chord * goal_.tolerance);
+            if (!longer.holds) break;
+            outcome = std::move(longer);
+        }
+        return outcome;
     }
 
     // The maximum that has this rms is searched for.

@@ -16,6 +16,7 @@ constexpr double kWorthFitting = 0.3;
 constexpr double kMayBeSaved = 3;
 
 // Share of the limit that a collapse may take, by its quadrics alone, to be done without a look at distances.
+// Not at borders, whose planes count little in the mean beside a flat side (the holes below the bunny).
 constexpr double kHarmless = 0.1;
 
 class Collapser {
@@ -53,6 +54,7 @@ class Collapser {
     void replace(std::int32_t u, std::int32_t v, const Vec3& place);
     double limit() const;
     double length_cost(std::int32_t u, std::int32_t v) const;
+    bool on_border(std::int32_t v) const { return !mesh_.neighbours(v, false).empty(); }
 
     CollapseMesh& mesh_;
     CollapseError& error_;
@@ -84,8 +86,8 @@ void Collapser::propose(std::int32_t u, std::int32_t v) {
     const double rest = q(place), rms = std::sqrt(rest / std::max(q.weight, 1e-300));
     // Both in the unit of forward(): the quadrics' weights are doubled areas, counted at three corners.
     const double estimate = limits_.metric == Metric::max ? rms : rest / 6;
-    queue_.push(
-        {estimate + length_cost(u, v), u, v, clock_, false, rms <= kHarmless * limits_.forward, place});
+    const bool harmless = rms <= kHarmless * limits_.forward && !on_border(u) && !on_border(v);
+    queue_.push({estimate + length_cost(u, v), u, v, clock_, false, harmless, place});
 }
 
 Collapser::Proposal Collapser::measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double most) {

@@ -82,6 +82,23 @@ TEST(Simplify, FlatFacesNeedNoInnerVertices) {
     EXPECT_LE(fitted(flat, 1e-3).faces.size(), 6U);  // two, were it not for the grid
 }
 
+TEST(Simplify, BordersOfFlatSheetsStay) {
+    // Three teeth of two tolerances on one side, and so many flat faces that the mean forgets them.
+    constexpr int kSide = 60;
+    TriangleMesh sheet;
+    for (int j = 0; j <= kSide; ++j) {
+        for (int i = 0; i <= kSide; ++i)
+            sheet.vertices.push_back({0.01 * i, 0.01 * j + (j == 0 && i % 20 == 10 ? 2e-3 : 0), 0});
+    }
+    for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i) {
+            const std::int32_t v = j * (kSide + 1) + i, w = v + kSide + 1;
+            sheet.faces.insert(sheet.faces.end(), {{v, v + 1, w}, {v + 1, w + 1, w}});
+        }
+    }
+    EXPECT_LE(two_sided(sheet, fitted(sheet, 1e-3)), 1.02e-3);
+}
+
 TEST(Simplify, FacesOfASphereGrowWithTheTolerance) {
     const TriangleMesh sphere = shapes::sphere(4);
     const std::size_t coarse = fitted(sphere, 4e-2).faces.size(), fine = fitted(sphere, 1e-2).faces.size();
