@@ -29,6 +29,7 @@ constexpr double kChordShares[] = {0.25, 0.16, 0.1};
 constexpr double kLongChordShares[] = {0.4, 0.6};
 constexpr std::size_t kMostGrowth = 3;  // triangles of the mesh for each of the input
 constexpr int kMostProofs = 3;
+constexpr int kMostCleanings = 4;
 // A region costs at least so many bytes.
 constexpr std::size_t kBytesOfRegion = 6;
 // Free forms fall into more (310 to 3,400 on seven of them at 1e-3 of the diagonal), parts into fewer (23 to
@@ -75,24 +76,20 @@ class TreeSearch {
     }
 
   private:
-    struct Certified {
-        SetTree tree;
-        double bound = 0;  // in the cube's units
-    };
-
     struct Candidate {
         TreeFit fit;
         TreeFitOptions options;
+        double proved = 0;  // in the cube's units; 0: not certified
     };
 
     std::optional<Outcome> by_max() const {
         double share = kTreeShare;
         for (int proof = 0; proof < kMostProofs; ++proof) {
-            const std::optional<Certified> found = smallest(share, goal_.tolerance);
+            std::optional<Candidate> found = smallest(share, goal_.tolerance);
             if (!found) return {};
             double reached = 0;
             for (const double chord : kChordShares) {
-                Outcome outcome = prove_tree(*found, chord * goal_.tolerance);
+                Outcome outcome = prove_tree(*found, chord * goal_.tolerance, goal_.tolerance);
                 if (outcome.holds) return slimmer(*found, std::move(outcome));
                 if (outcome.mesh.faces.empty()) return {};
                 reached = outcome.deviation.max() / goal_.tolerance;
@@ -102,12 +99,16 @@ class TreeSearch {
         return {};
     }
 
-    // A coarse input shall not come back as a mesh of many times its triangles: then longer chords, if they
-    // hold as well.
-    Outcome slimmer(const Certified& found, Outcome outcome) const {
+    // A coarse input shall not come back as a mesh of many times its triangles.
+    bool is_dense(const Outcome& outcome) const {
+        return outcome.mesh.faces.size() > kMostGrowth * goal_.mesh.faces.size();
+    }
+
+    // With longer chords, as far as they hold.
+    Outcome slimmer(Candidate& found, Outcome outcome) const {
         for (const double chord : kLongChordShares) {
-            if (outcome.mesh.faces.size() <= kMostGrowth * goal_.mesh.faces.size()) break;
-            Outcome longer = prove_tree(found, chord * goal_.tolerance);
+            if (!is_dense(outcome)) break;
+            Outcome longer = prove_tree(found, chord * goal_.tolerance, goal_.tolerance);
             if (!longer.holds) break;
             outcome = std::move(longer);
         }
@@ -119,9 +120,9 @@ class TreeSearch {
         std::optional<Outcome> best;
         double most = kMaxOverRms * goal_.tolerance;
         for (int proof = 0; proof < kMostProofs; ++proof) {
-            const std::optional<Certified> found = smallest(kTreeShare, most);
+            std::optional<Candidate> found = smallest(kTreeShare, most);
             if (!found) break;
-            Outcome outcome = prove_tree(*found, kChordOfRms * goal_.tolerance);
+            Outcome outcome = prove_tree(*found, kChordOfRms * goal_.tolerance, most);
             if (outcome.mesh.faces.empty()) break;
             const double reached = outcome.deviation.rms() / goal_.tolerance;
             const bool enough = outcome.holds && reached > kEnough;
@@ -133,7 +134,7 @@ class TreeSearch {
     }
 
     // Fitted within this share of the tolerance, certified to all of it.
-    std::optional<Certified> smallest(double share, double tolerance) const {
+    std::optional<Candidate> smallest(double share, double tolerance) const {
         const double certified = tolerance / frame_.half();
         const std::size_t settings = goal_.effort == Effort::fast ? 1 : std::size(kShares);
         for (const auto& shares : {std::span(kShares), std::span(kOtherwise)}) {
@@ -143,31 +144,28 @@ class TreeSearch {
     }
 
     // Of the settings, the certified tree with the fewest bits. They are mended side by side.
-    std::optional<Certified> smallest_of(std::span<const Shares> settings, double tolerance,
+    std::optional<Candidate> smallest_of(std::span<const Shares> settings, double tolerance,
                                          double certified) const {
         std::vector<Candidate> fits;
         for (const Shares& shares : settings) {
             const TreeFitOptions options = options_for(shares, tolerance);
-            fits.push_back({fit_set_tree(target_.mesh, target_.bvh, options, task_), options});
+            fits.push_back({fit_set_tree(target_.mesh, target_.bvh, options, task_), options, 0});
             if (fits.back().fit.tree.nodes.empty()) return {};
             if (fits.back().fit.mostly_whole()) break;  // no seams that want other shares
         }
-        const double most_bits = 8.0 * static_cast<double>(most_bytes_);
-        std::vector<std::optional<double>> bounds(fits.size());
         const int threads = std::max(1, thread_count(task_) / static_cast<int>(fits.size()));
         parallel_chunks(fits.size(), 1, task_, [&](std::size_t i, std::size_t) {
-            auto& [fit, options] = fits[i];
-            if (fit.bits < most_bits)
-                bounds[i] = mend_tree(fit, options, target_, certified, most_bits, quiet(task_, threads));
+            if (fits[i].fit.bits < most_bits()) mend(fits[i], certified, quiet(task_, threads));
         });
-        std::optional<Certified> best;
-        double least = most_bits;
-        for (std::size_t i = 0; i < fits.size(); ++i) {
-            if (!bounds[i] || fits[i].fit.bits >= least) continue;
-            least = fits[i].fit.bits;
-            best = {std::move(fits[i].fit.tree), *bounds[i]};
-        }
-        return best;
+        std::erase_if(fits, [](const Candidate& c) { return c.proved == 0; });
+        const auto best = std::ranges::min_element(fits, {}, [](const Candidate& c) { return c.fit.bits; });
+        return best == fits.end() ? std::nullopt : std::optional(std::move(*best));
+    }
+
+    double most_bits() const { return 8.0 * static_cast<double>(most_bytes_); }
+
+    void mend(Candidate& c, double certified, const Task& task) const {
+        c.proved = mend_tree(c.fit, c.options, target_, certified, most_bits(), task).value_or(0);
     }
 
     TreeFitOptions options_for(const Shares& shares, double tolerance) const {
@@ -184,19 +182,46 @@ class TreeSearch {
     }
 
     // An island is one piece, and so must its mesh be. Within the tube a tree may leave bits of surface by
-    // themselves: they break no promise, but nobody wants them (a pebble's tree of 688 bytes left one of two
-    // tolerances).
-    Outcome prove_tree(const Certified& found, double chord) const {
+    // themselves: they break no promise, but nobody wants them (a pebble's tree left one of two tolerances, a
+    // printed part's several). The leaves that they are in are mended like others that are wrong.
+    Outcome prove_tree(Candidate& found, double chord, double tolerance) const {
+        for (int i = 0;; ++i) {
+            Outcome outcome = prove_once(found, chord);
+            const std::vector<KnownSide> bits = loose_bits(outcome.mesh);
+            if (bits.empty()) return outcome;
+            if (i == kMostCleanings) return {};
+            repair_set_tree(found.fit, target_.bvh, bits, task_);
+            mend(found, tolerance / frame_.half(), quiet(task_, task_.threads));
+            if (found.proved == 0) return {};
+        }
+    }
+
+    // Points in the pieces of a tree's mesh but for the largest, with their sides of the island.
+    std::vector<KnownSide> loose_bits(const TriangleMesh& mesh) const {
+        std::vector<KnownSide> points;
+        std::vector<std::vector<std::int32_t>> pieces = find_pieces(mesh);
+        for (std::size_t i = 1; i < pieces.size(); ++i) {
+            Vec3 centre;
+            for (const std::int32_t v : pieces[i])
+                centre += mesh.vertices[v] / static_cast<double>(pieces[i].size());
+            for (const std::int32_t v : pieces[i]) {
+                const Vec3 p = frame_.to_local((centre + mesh.vertices[v]) / 2);
+                points.push_back({p, target_.distance(p).distance > 0});
+            }
+        }
+        return points;
+    }
+
+    Outcome prove_once(const Candidate& found, double chord) const {
         Outcome outcome;
         outcome.candidate = "tree";
-        outcome.bound_functions = found.bound * frame_.half();
-        SetTree tree = found.tree;
+        outcome.bound_functions = found.proved * frame_.half();
+        SetTree tree = found.fit.tree;
         tree.complement = goal_.inward;
         outcome.object.frame = frame_;
         outcome.object.shape = std::move(tree);
         outcome.object.mesh_code = mesh_code_for(goal_, chord);
         prove(goal_, outcome, task_);
-        if (!in_one_piece(outcome.mesh)) return {};
         return outcome;
     }
 

@@ -3,7 +3,9 @@
 #include "pfgeom/mesh/edges.h"
 #include "pfgeom/mesh/union_find.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 
 namespace pfgeom {
@@ -101,17 +103,25 @@ std::vector<Island> find_islands(const TriangleMesh& mesh, MeshDefects& defects,
     return islands;
 }
 
-bool in_one_piece(const TriangleMesh& mesh) {
-    UnionFind pieces(mesh.vertices.size());
-    std::size_t left = mesh.vertices.size();
+std::vector<std::vector<std::int32_t>> find_pieces(const TriangleMesh& mesh) {
+    UnionFind joined(mesh.vertices.size());
     for (const auto& [a, b, c] : mesh.faces) {
-        for (const std::int32_t v : {b, c}) {
-            if (pieces.find(a) == pieces.find(v)) continue;
-            pieces.join(a, v);
-            --left;
-        }
+        joined.join(a, b);
+        joined.join(a, c);
     }
-    return left == 1;
+    std::vector<std::int32_t> piece_of(mesh.vertices.size(), -1);
+    std::vector<std::vector<std::int32_t>> pieces;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const auto v = static_cast<std::int32_t>(i);
+        const std::int32_t root = joined.find(v);  // the lowest, so seen already
+        if (root == v) {
+            piece_of[i] = static_cast<std::int32_t>(pieces.size());
+            pieces.emplace_back();
+        }
+        pieces[piece_of[root]].push_back(v);
+    }
+    std::ranges::stable_sort(pieces, std::greater<>{}, &std::vector<std::int32_t>::size);
+    return pieces;
 }
 
 }  // namespace pfgeom

@@ -3,6 +3,7 @@
 
 #include "pfgeom/mesh/prepare.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace pfgeom {
@@ -11,8 +12,8 @@ namespace pfgeom {
 /// non-manifold vertices into `defects`.
 std::vector<Island> find_islands(const TriangleMesh& mesh, MeshDefects& defects, const Task& task);
 
-/// Do all vertices hang together by faces?
-bool in_one_piece(const TriangleMesh& mesh);
+/// The vertices that hang together by faces, the largest set first.
+std::vector<std::vector<std::int32_t>> find_pieces(const TriangleMesh& mesh);
 
 /// Sets `parent` of each closed and oriented island.
 void find_parents(PreparedMesh& prepared, const Task& task);

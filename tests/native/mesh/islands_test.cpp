@@ -59,11 +59,13 @@ TEST(Islands, NonManifoldEdgesAndVertices) {
     EXPECT_NEAR(edge.islands[0].signed_volume, 16, 1e-12);
 }
 
-TEST(Islands, OnePieceIsAllOfTheVertices) {
-    const TriangleMesh sphere = shapes::sphere(1);
-    EXPECT_TRUE(in_one_piece(sphere));
-    EXPECT_FALSE(in_one_piece(shapes::joined(sphere, shapes::translated(sphere, {5, 0, 0}))));
-    EXPECT_FALSE(in_one_piece({}));
+TEST(Islands, PiecesAreFoundTheLargestFirst) {
+    const TriangleMesh small = shapes::cube(), large = shapes::sphere(2);
+    const auto pieces = find_pieces(shapes::joined(small, shapes::translated(large, {5, 0, 0})));
+    ASSERT_EQ(pieces.size(), 2U);
+    EXPECT_EQ(pieces[0].size(), large.vertices.size());
+    EXPECT_EQ(pieces[1].front(), 0);
+    EXPECT_TRUE(find_pieces({}).empty());
 }
 
 TEST(Islands, AreInTheOrderOfTheirLowestFace) {
