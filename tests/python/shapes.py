@@ -89,6 +89,27 @@ def gear(teeth: int = 10):
     return vertices, np.concatenate([np.stack(f, axis=1) for f in faces])
 
 
+def bored_block(radius: float = 3.0, n: int = 64):
+    """A block of 20 x 14 x 8 about the origin with a hole of this radius along z."""
+    corners = np.array([[10.0, 7], [-10, 7], [-10, -7], [10, -7]])
+    a = 2 * np.pi * np.arange(n) / n
+    circle = radius * np.stack([np.cos(a), np.sin(a)], axis=1)
+    rim = np.concatenate([corners, circle])
+    half = np.full((n + 4, 1), 4.0)
+    vertices = np.concatenate([np.hstack([rim, half]), np.hstack([rim, -half])])
+    top = []
+    for side in range(4):  # a fan from each corner to its quarter of the circle, and one to the next corner
+        quarter = 4 + (n // 8 + np.arange(-(n // 8), n // 8 + 1) + side * n // 4) % n
+        top += [(side, b, a) for a, b in zip(quarter[1:], quarter[:-1], strict=True)]
+        top.append((side, quarter[-1], (side + 1) % 4))
+    top = np.array(top)[:, ::-1]
+    m = n + 4
+    outer = [(j, (j + 1) % 4) for j in range(4)]
+    inner = [(4 + (j + 1) % n, 4 + j) for j in range(n)]
+    walls = [t for a, b in outer + inner for t in ((a, a + m, b + m), (a, b + m, b))]
+    return vertices, np.concatenate([top, top[:, ::-1] + m, walls])
+
+
 def soup(count: int = 30):
     """Triangles that have nothing to do with each other."""
     vertices = np.random.default_rng(7).uniform(-1, 1, (3 * count, 3))
