@@ -188,7 +188,7 @@ class SurfaceSearch {
 
     void add(const Hit& hit) {
         if (hit.question == nullptr) {
-            surface_.box_area[static_cast<std::size_t>(2 * hit.axis + (hit.enters ? 0 : 1))] += hit.area;
+            surface_.box_area[2 * static_cast<std::size_t>(hit.axis) + (hit.enters ? 0U : 1U)] += hit.area;
         } else if (hit.question->kind == TreeNode::Kind::cut) {
             surface_.cut_area += hit.area;
         } else {
