@@ -4,7 +4,6 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
-#include "pfgeom/segment/exact_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +16,6 @@ constexpr double kSeamShare = 1.0 / 16;
 // Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
 constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
-// A larger one is tried as a tree if so much of its area is an exact tessellation: parts and unions of
-// ellipsoids have 0.9 to 1, scans less than 0.1.
-constexpr double kTessellated = 0.5;
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
@@ -107,9 +103,7 @@ class Compressor {
     std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) const {
         const MeshEstimate estimate = estimate_mesh(goal, task);
         const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
-        std::optional<Outcome> best;
-        if (!large || exact_share(goal.mesh, task) >= kTessellated)
-            best = try_tree(goal, estimate.likely, task);
+        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
         if (best && best->bytes < estimate.least && !all) return best;
         Outcome plain = try_mesh(goal, task);
         // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
@@ -123,16 +117,11 @@ class Compressor {
     }
 
     std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) const {
-        std::optional<Outcome> best;
-        std::size_t most_bytes = kNoLimit;
-        if (goal.mesh.faces.size() <= kQuickMesh) {
-            const MeshEstimate estimate = estimate_mesh(goal, task);
-            best = try_tree(goal, estimate.likely, task);
-            if (best && best->bytes < estimate.least && goal.effort != Effort::best) return best;
-            take_cheaper(try_mesh(goal, task), best);
-            if (best) most_bytes = best->bytes;
-        }
-        take_cheaper(try_hierarchy(goal, most_bytes, task), best);
+        const MeshEstimate estimate = estimate_mesh(goal, task);
+        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
+        if (best && best->bytes < estimate.least && goal.effort != Effort::best) return best;
+        if (goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
+        take_cheaper(try_hierarchy(goal, best ? best->bytes : kNoLimit, task), best);
         return best;
     }
 
@@ -241,7 +230,9 @@ class Compressor {
         model_.promise = {options_.metric, tolerance_, tolerance_, false, tolerance_};
         const Result<Model> first = decode(encode(model_));
         if (!first) return false;  // asks for more work than its size allows
-        const TriangleMesh mesh = default_mesh(*first);
+        const bool proved = reads_as_proved(*first);
+        const TriangleMesh mesh =
+            proved ? mesh_of_islands() : to_mesh(*first, {}, quiet(task_, task_.threads));
         task_.report(0.96, "measure");
         DeviationOptions options;
         // Of a maximum, which is proved, samples tell only the rms beside it.
@@ -249,7 +240,13 @@ class Compressor {
         const std::size_t most = by_max ? 50'000 : options.samples;
         options.samples = std::clamp<std::size_t>(prepared_.mesh.faces.size() * 20, 50'000, most);
         if (by_max) options.certify_below = tolerance_;
+        const std::optional<Deviation> maximum = by_max && proved ? maximum_of_islands() : std::nullopt;
+        options.bound = !maximum;
         result_.report.deviation = measure_deviation(input_, mesh, options, quiet(task_, task_.threads));
+        if (maximum) {
+            result_.report.deviation.a_to_b.max_bound = result_.report.deviation.b_to_a.max_bound = 0;
+            take_maximum(*maximum, result_.report.deviation);
+        }
         const Deviation& d = result_.report.deviation;
         model_.promise.certified = d.certified;
         model_.promise.bound_mesh = d.certified ? d.max_bound() : d.max();
@@ -263,16 +260,42 @@ class Compressor {
         return reached <= tolerance_;
     }
 
-    // A tree alone was made a mesh when it was proved.
-    TriangleMesh default_mesh(const Model& decoded) const {
-        if (chosen_.size() == 1 && is_function(0)) {
-            const Object &object = decoded.objects.front(), &proved = chosen_[0]->object;
-            const auto* tree = std::get_if<SetTree>(&object.shape);
-            const auto* same = std::get_if<SetTree>(&proved.shape);
-            if (tree && same && *tree == *same && object.mesh_code == proved.mesh_code)
-                return chosen_[0]->mesh;
+    // Does the file hold the islands' functions, and nothing else, as they were when they were made meshes?
+    bool reads_as_proved(const Model& decoded) const {
+        for (std::size_t i = 0; i < chosen_.size(); ++i) {
+            if (!is_function(i)) return false;
         }
-        return to_mesh(decoded, {}, quiet(task_, task_.threads));
+        return decoded.functions == model_.functions && decoded.objects == model_.objects;
+    }
+
+    TriangleMesh mesh_of_islands() const {
+        TriangleMesh mesh;
+        for (const std::size_t i : by_nesting()) append(chosen_[i]->mesh, mesh);
+        return mesh;
+    }
+
+    // What is proved of the islands: no point is farther from all of a surface than from a part of it.
+    // Nothing if the input is more than the islands, or was moved.
+    std::optional<Deviation> maximum_of_islands() const {
+        if (prepared_.defects.degenerate_faces > 0 || prepared_.defects.seam_edges > 0) return {};
+        Deviation all;
+        all.certified = true;
+        for (const std::optional<Outcome>& island : chosen_) {
+            if (!island->deviation.certified) return {};
+            take_maximum(island->deviation, all);
+        }
+        return all;
+    }
+
+    // Of two certified deviations.
+    static void take_maximum(const Deviation& more, Deviation& deviation) {
+        for (const auto side : {&Deviation::a_to_b, &Deviation::b_to_a}) {
+            OneSided& mine = deviation.*side;
+            const OneSided& other = more.*side;
+            if (other.max > mine.max) mine.max = other.max, mine.worst = other.worst;
+            mine.max_bound = std::max(mine.max_bound, other.max_bound);
+        }
+        deviation.certified = more.certified;
     }
 
     void fill_report(const TriangleMesh& mesh) {

@@ -77,12 +77,6 @@ TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshO
     return mesh;
 }
 
-void append(TriangleMesh& all, const TriangleMesh& mesh) {
-    const auto offset = static_cast<std::int32_t>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const Triangle& t : mesh.faces) all.faces.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-}
-
 TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
     TriangleMesh copy = mesh;
     for (Vec3& v : copy.vertices) v = s.apply(v);
@@ -110,8 +104,8 @@ TriangleMesh to_mesh(const Model& model, const MeshOptions& options, const Task&
         const Task part = part_of(task, at / count, (at + 1) / count);
         part.report(0, "polygonize");
         const TriangleMesh mesh = mesh_in_place(model, object, options, part);
-        append(all, mesh);
-        for (const Similarity& s : object.instances) append(all, copy_of(mesh, s));
+        append(mesh, all);
+        for (const Similarity& s : object.instances) append(copy_of(mesh, s), all);
     }
     task.report(1, "polygonize");
     return all;

@@ -70,9 +70,10 @@ std::vector<Region> find_regions(const TriangleMesh& mesh, const Bvh& bvh, const
     SegmentOptions segmenting;
     segmenting.tolerance = options.tolerance * options.fit_share;
     segmenting.most_regions = options.most_regions;
-    const std::vector<WholeQuadric> whole = find_whole_quadrics(mesh, distance, segmenting.tolerance,
-                                                                options.tolerance * options.tube_share, task);
+    const std::vector<WholeQuadric> whole = find_whole_quadrics(
+        mesh, distance, options.exact, segmenting.tolerance, options.tolerance * options.tube_share, task);
     segmenting.whole = whole;
+    segmenting.exact = options.exact;
     segmenting.outermost_first = options.askew;
     if (options.askew) segmenting.most_misalignment = kConesWhole;
     return segment(mesh, segmenting, task);

@@ -8,6 +8,7 @@
 #include "pfgeom/fit/whole_checks.h"
 #include "pfgeom/function/set_tree.h"
 #include "pfgeom/mesh/bvh.h"
+#include "pfgeom/segment/exact_patches.h"
 
 #include <cstdint>
 #include <span>
@@ -24,9 +25,10 @@ struct TreeFitOptions {
     /// planes are paired first (SegmentOptions::outermost_first), and questions may ask separators
     /// (tree_seams.h).
     bool askew = false;
-    std::size_t most_regions = 1000;  ///< a shape with more is for another representation
-    int effort = 1;                   ///< 0 fast, 1 normal, 2 best
-    std::vector<Spot> held;           ///< around these, whole quadrics move by so much less
+    std::size_t most_regions = 1000;         ///< a shape with more is for another representation
+    int effort = 1;                          ///< 0 fast, 1 normal, 2 best
+    std::span<const ExactPatch> exact = {};  ///< the mesh's
+    std::vector<Spot> held;                  ///< around these, whole quadrics move by so much less
     std::uint64_t seed = 1;
 };
 

@@ -18,6 +18,8 @@ namespace pfgeom {
 struct Perturbation {
     double factor = 0;
     Quadric quadric;
+
+    friend bool operator==(const Perturbation&, const Perturbation&) = default;
 };
 
 /// One level of a hierarchy of perturbations: balls Q = 1 - |x-c|²/r² of one radius. Centres and scales are
@@ -39,6 +41,8 @@ struct Level {
         return q > 0 ? q - towards_zero : q < 0 ? q + towards_zero : 0.0;
     }
     double factor(std::size_t i) const { return reconstruct(z[i]) * step * scale[i]; }
+
+    friend bool operator==(const Level&, const Level&) = default;
 };
 
 /// What the levels are derived from.
@@ -48,6 +52,8 @@ struct HierarchyHead {
     std::uint8_t ratio_code = 74;        ///< step of level l = step of level 7 · (ratio_code / 64)^(l - 7)
     std::uint8_t shrink_code = 4;        ///< form factors are shrink_code / 16 steps closer to zero (0 .. 7)
     std::uint8_t first_sheet = 4;  ///< levels 2 .. first_sheet-1 are lattices, then centres on the surface
+
+    friend bool operator==(const HierarchyHead&, const HierarchyHead&) = default;
 };
 
 /// F' = base + Σ f_i R_i. Inside is F' >= 0.
@@ -56,6 +62,8 @@ struct Function {
     std::vector<Perturbation> perturbations;
     HierarchyHead head;  ///< meaningful if there are levels
     std::vector<Level> levels;
+
+    friend bool operator==(const Function&, const Function&) = default;
 };
 
 /// A set-theoretic expression over functions, in an array: children stand before their parents, the root
@@ -72,16 +80,22 @@ struct SetNode {
     };
     Kind kind = Kind::outside;
     std::int32_t a = -1, b = -1, f = -1;
+
+    friend bool operator==(const SetNode&, const SetNode&) = default;
 };
 
 /// A closed region of space.
 struct Solid {
     std::vector<SetNode> nodes;
+
+    friend bool operator==(const Solid&, const Solid&) = default;
 };
 
 /// An open surface: the zero set of one function where another one, the trim, is >= 0.
 struct Sheet {
     std::int32_t surface = -1, trim = -1;
+
+    friend bool operator==(const Sheet&, const Sheet&) = default;
 };
 
 /// What functions do not take: a coded mesh on an integer grid. Vertex = frame.to_world(positions · step).
@@ -91,6 +105,8 @@ struct MeshPart {
     std::vector<Triangle> faces;                         ///< #F by 3
 
     double step() const { return exp2_eighths(step_code); }
+
+    friend bool operator==(const MeshPart&, const MeshPart&) = default;
 };
 
 /// A rotation (or mirror), uniform scale and translation of the world.
@@ -106,6 +122,8 @@ struct Similarity {
     /// The transposed rotation: of gradients and directions.
     Vec3 turn_back(const Vec3& d) const { return d.x * rows[0] + d.y * rows[1] + d.z * rows[2]; }
     Vec3 turn(const Vec3& d) const { return {dot(rows[0], d), dot(rows[1], d), dot(rows[2], d)}; }
+
+    friend bool operator==(const Similarity&, const Similarity&) = default;
 };
 
 /// What one island or segment of the mesh became.
@@ -119,6 +137,8 @@ struct Object {
     std::int32_t cavity_of = -1;
     std::vector<Similarity> instances;  ///< further copies, beside the one that `frame` places
     std::uint8_t mesh_code = 0;  ///< chord tolerance of the default mesh: diagonal · 2^(-mesh_code / 4)
+
+    friend bool operator==(const Object&, const Object&) = default;
 };
 
 enum class Metric : std::uint8_t { max, rms };

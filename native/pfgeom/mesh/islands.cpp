@@ -101,4 +101,17 @@ std::vector<Island> find_islands(const TriangleMesh& mesh, MeshDefects& defects,
     return islands;
 }
 
+bool in_one_piece(const TriangleMesh& mesh) {
+    UnionFind pieces(mesh.vertices.size());
+    std::size_t left = mesh.vertices.size();
+    for (const auto& [a, b, c] : mesh.faces) {
+        for (const std::int32_t v : {b, c}) {
+            if (pieces.find(a) == pieces.find(v)) continue;
+            pieces.join(a, v);
+            --left;
+        }
+    }
+    return left == 1;
+}
+
 }  // namespace pfgeom

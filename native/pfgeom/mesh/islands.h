@@ -11,6 +11,9 @@ namespace pfgeom {
 /// non-manifold vertices into `defects`.
 std::vector<Island> find_islands(const TriangleMesh& mesh, MeshDefects& defects, const Task& task);
 
+/// Do all vertices hang together by faces?
+bool in_one_piece(const TriangleMesh& mesh);
+
 /// Sets `parent` of each closed and oriented island.
 void find_parents(PreparedMesh& prepared, const Task& task);
 

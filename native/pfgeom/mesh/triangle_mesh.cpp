@@ -22,4 +22,10 @@ double surface_area(const TriangleMesh& mesh) {
     return twice_area / 2;
 }
 
+void append(const TriangleMesh& mesh, TriangleMesh& all) {
+    const auto offset = static_cast<std::int32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const Triangle& t : mesh.faces) all.faces.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+}
+
 }  // namespace pfgeom

@@ -20,5 +20,7 @@ Box bounds(const TriangleMesh& mesh);
 /// Diagonal of that box: what relative tolerances refer to.
 double diagonal(const TriangleMesh& mesh);
 double surface_area(const TriangleMesh& mesh);
+/// Adds the mesh's vertices and faces to those of `all`.
+void append(const TriangleMesh& mesh, TriangleMesh& all);
 
 }  // namespace pfgeom

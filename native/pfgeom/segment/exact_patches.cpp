@@ -22,7 +22,8 @@ constexpr std::size_t kLeastSize = 40;  // of a patch worth having
 constexpr double kFlat = 1e-3;          // height of a flat seed, of its radius
 constexpr double kAligned = 0.9;        // cosine between gradient and vertex normal
 constexpr int kMostLooks = 500;         // at all vertices
-constexpr double kRefit = 1.5;          // growth after which the quadric is solved again
+constexpr std::size_t kLongWalk = 1000;
+constexpr double kRefit = 1.5;  // growth after which the quadric is solved again
 
 // A quadric through the points of a patch, in a frame in which the patch fills the unit ball: there its
 // system is as well conditioned as the patch allows.
@@ -106,7 +107,13 @@ class PatchFinder {
         for (const std::int32_t v : neighbours(seed)) tried_[v] = 1;
         if (members.size() < kSeedSize || is_flat(members)) return;
         std::optional<LocalQuadric> q = fit(members);
-        if (!q || !grow(members, *q)) return;
+        if (!q) return;
+        if (!grow(members, *q)) {
+            // What is near the seed would take the same long walk in vain (a fillet of a million triangles).
+            if (members.size() < kLongWalk) return;
+            for (const std::int32_t v : std::span(members).first(members.size() / 4)) tried_[v] = 1;
+            return;
+        }
         for (const std::int32_t v : members) patch_[v] = static_cast<std::int32_t>(quadrics_.size());
         quadrics_.push_back(*q);
     }
@@ -202,7 +209,7 @@ class PatchFinder {
     std::vector<std::size_t> first_;  // of each vertex's neighbours
     std::vector<std::int32_t> neighbours_;
     std::vector<std::int32_t> patch_;  // of each vertex, or kFree
-    std::vector<char> tried_;          // as a seed, or next to one
+    std::vector<char> tried_;          // as a seed, next to one, or on its way
     std::vector<std::int32_t> mark_;   // the last walk that saw it
     std::int32_t walk_ = 0;
     int looks_left_ = kMostLooks;
@@ -215,9 +222,9 @@ std::vector<ExactPatch> find_exact_patches(const TriangleMesh& mesh, const Task&
     return PatchFinder(mesh).run(task);
 }
 
-double exact_share(const TriangleMesh& mesh, const Task& task) {
+double exact_share(const TriangleMesh& mesh, std::span<const ExactPatch> patches) {
     std::vector<char> exact(mesh.faces.size(), 0);
-    for (const ExactPatch& patch : find_exact_patches(mesh, task)) {
+    for (const ExactPatch& patch : patches) {
         for (const std::int32_t f : patch.faces) exact[f] = 1;
     }
     const double near = kExact * diagonal(mesh);

@@ -8,6 +8,7 @@
 #include "pfgeom/mesh/triangle_mesh.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pfgeom {
@@ -23,6 +24,6 @@ std::vector<ExactPatch> find_exact_patches(const TriangleMesh& mesh, const Task&
 /// The share of the area that looks like a tessellation of quadrics: exact patches, and faces with a
 /// neighbour in their plane, as in flat sides and in strips along cylinders and cones. Costs a look at every
 /// edge: to be asked before anything dear is tried on a large mesh.
-double exact_share(const TriangleMesh& mesh, const Task& task = {});
+double exact_share(const TriangleMesh& mesh, std::span<const ExactPatch> patches);
 
 }  // namespace pfgeom

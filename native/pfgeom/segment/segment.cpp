@@ -9,7 +9,6 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/mesh/edges.h"
 #include "pfgeom/mesh/union_find.h"
-#include "pfgeom/segment/exact_patches.h"
 #include "pfgeom/segment/region_set.h"
 
 #include <algorithm>
@@ -144,7 +143,7 @@ std::vector<Region> segment(const TriangleMesh& mesh, const SegmentOptions& opti
         regions.unite(whole);
         for (const std::int32_t f : whole.faces) roots.join(whole.faces[0], f);
     }
-    for (const auto& patch : find_exact_patches(mesh, task)) {
+    for (const ExactPatch& patch : options.exact) {
         const auto taken = [&](std::int32_t f) { return regions.size(f) != 1 || !regions.merges(f); };
         if (std::ranges::any_of(patch.faces, taken) || !regions.unite(patch.faces)) continue;
         for (const std::int32_t f : patch.faces) roots.join(patch.faces[0], f);

@@ -3,6 +3,7 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/mesh/triangle_mesh.h"
+#include "pfgeom/segment/exact_patches.h"
 #include "pfgeom/segment/power_sums.h"
 #include "pfgeom/segment/whole_quadrics.h"
 
@@ -32,6 +33,7 @@ struct SegmentOptions {
     bool outermost_first = false;
     std::size_t hosts = 400;  ///< so many largest regions are tried against all others that lie apart
     std::span<const WholeQuadric> whole = {};  ///< regions from the beginning, never merged
+    std::span<const ExactPatch> exact = {};    ///< of the mesh: regions from the beginning
 };
 
 /// Nothing if there are more than options.most_regions. Regions by falling area: neighbours merged best

@@ -2,7 +2,6 @@
 
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/segment/ellipsoid.h"
-#include "pfgeom/segment/exact_patches.h"
 #include "pfgeom/segment/region_set.h"
 
 #include <algorithm>
@@ -51,8 +50,8 @@ class Finder {
            const Task& task)
         : mesh_(mesh), distance_(distance), tolerance_(tolerance), tube_(tube), task_(task) {}
 
-    std::vector<WholeQuadric> run() {
-        collect();
+    std::vector<WholeQuadric> run(std::span<const ExactPatch> exact) {
+        collect(exact);
         find_hidden();
         claim_faces();
         return std::move(found_);
@@ -60,8 +59,8 @@ class Finder {
 
   private:
     // Ellipsoids of exact patches, one for all patches that lie on it.
-    void collect() {
-        std::vector<ExactPatch> patches = find_exact_patches(mesh_, task_);
+    void collect(std::span<const ExactPatch> exact) {
+        std::vector<ExactPatch> patches(exact.begin(), exact.end());
         std::erase_if(patches, [](const ExactPatch& p) { return !ellipsoid_of(p.quadric); });
         std::ranges::stable_sort(patches, std::greater<>{},
                                  [](const ExactPatch& p) { return p.faces.size(); });
@@ -148,8 +147,9 @@ class Finder {
 }  // namespace
 
 std::vector<WholeQuadric> find_whole_quadrics(const TriangleMesh& mesh, const SignedDistance& distance,
-                                              double tolerance, double tube, const Task& task) {
-    return Finder(mesh, distance, tolerance, tube, task).run();
+                                              std::span<const ExactPatch> exact, double tolerance,
+                                              double tube, const Task& task) {
+    return Finder(mesh, distance, tolerance, tube, task).run(exact);
 }
 
 }  // namespace pfgeom

@@ -8,8 +8,10 @@
 #include "pfgeom/function/quadric.h"
 #include "pfgeom/mesh/signed_distance.h"
 #include "pfgeom/mesh/triangle_mesh.h"
+#include "pfgeom/segment/exact_patches.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pfgeom {
@@ -29,9 +31,10 @@ struct WholeQuadric {
     std::vector<HiddenPoint> hidden;
 };
 
-/// By falling number of exact vertices. `tolerance`: of the faces that a quadric may take; `tube`: how far
-/// from the surface a point may be on the wrong side. `distance` is the mesh's.
+/// By falling number of exact vertices. `distance` and the exact patches are the mesh's. `tolerance`: of the
+/// faces that a quadric may take; `tube`: how far from the surface a point may be on the wrong side.
 std::vector<WholeQuadric> find_whole_quadrics(const TriangleMesh& mesh, const SignedDistance& distance,
-                                              double tolerance, double tube, const Task& task = {});
+                                              std::span<const ExactPatch> exact, double tolerance,
+                                              double tube, const Task& task = {});
 
 }  // namespace pfgeom

@@ -37,7 +37,9 @@ std::vector<KnownSide> contradictions(const SetTree& tree, const TriangleMesh& m
     return wrong;
 }
 
-TreeFit fitted(const TriangleMesh& mesh, const TreeFitOptions& options) {
+TreeFit fitted(const TriangleMesh& mesh, TreeFitOptions options) {
+    const auto exact = find_exact_patches(mesh);
+    options.exact = exact;
     const TreeFit fit = fit_set_tree(mesh, Bvh(mesh), options);
     EXPECT_EQ(wrong_of(fit), 0U);
     EXPECT_EQ(find_flaw(fit.tree), "");

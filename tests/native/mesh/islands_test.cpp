@@ -1,3 +1,5 @@
+#include "pfgeom/mesh/islands.h"
+
 #include "pfgeom/mesh/prepare.h"
 #include "shapes.h"
 
@@ -55,6 +57,14 @@ TEST(Islands, NonManifoldEdgesAndVertices) {
     ASSERT_EQ(edge.islands.size(), 1u);
     EXPECT_TRUE(edge.islands[0].closed && edge.islands[0].oriented && !edge.islands[0].manifold);
     EXPECT_NEAR(edge.islands[0].signed_volume, 16, 1e-12);
+}
+
+TEST(Islands, OnePieceIsAllOfTheVertices) {
+    const TriangleMesh sphere = shapes::sphere(1);
+    EXPECT_TRUE(in_one_piece(sphere));
+    EXPECT_FALSE(in_one_piece(shapes::joined(sphere, shapes::translated(sphere, {5, 0, 0}))));
+    EXPECT_TRUE(in_one_piece(shapes::cubes_sharing_vertex())) << "a vertex holds it together";
+    EXPECT_FALSE(in_one_piece({}));
 }
 
 TEST(Islands, AreInTheOrderOfTheirLowestFace) {
