@@ -49,6 +49,12 @@ def torus(rows: int = 48, columns: int = 24, radius: float = 0.4, ripple: float 
     return vertices.reshape(-1, 3), grid(rows, columns, True, True)
 
 
+def bumpy_torus():
+    """A free form without symmetry: no few quadrics serve it."""
+    vertices, faces = torus(ripple=0.3)
+    return vertices * (1 + 0.03 * np.sin(vertices @ [[5.0], [7.0], [6.0]])), faces
+
+
 def cube():
     vertices = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])

@@ -27,7 +27,7 @@ constexpr double kClose = 3, kCloseShare = 0.1;
 // % of the tolerance; at 0.9 less is shared (273 bytes become 277 at 5e-4).
 constexpr double kRoom = 0.95;
 constexpr double kLeastScale = 0.55, kMostScale = 1.75;
-constexpr int kRounds = 3;  // a fourth changes next to nothing
+constexpr int kRounds = 3;  // eight find no more on fandisk and tri-plate_holes
 // Who comes first decides who can follow: of 16 orders the best takes 1 to 5 % fewer bits than the first.
 // Many quadrics take long, and find others like them anyway.
 constexpr std::size_t kMostPairs = 65536;  // of quadrics, over all orders
