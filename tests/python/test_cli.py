@@ -96,7 +96,7 @@ def test_info_lists_the_kinds_of_functions(sphere_model):
     assert rows["no surface"] == ("1", "plane: 1")
 
 
-def test_info_says_what_is_proved_of_the_functions(command_line, tmp_path, gear_model, sphere_model):
+def test_info_says_what_is_proved_of_the_functions(command_line, tmp_path, gear_model, soup_model):
     gear_model.save(tmp_path / "gear.pfg")
     info = figures(command_line("info", "gear.pfg", "--json"))
     assert info["bound_functions"] == gear_model.bound_functions
@@ -104,8 +104,8 @@ def test_info_says_what_is_proved_of_the_functions(command_line, tmp_path, gear_
     row = next(line for line in command_line("info", "gear.pfg").stdout.splitlines() if "max of functions" in line)
     assert f"{gear_model.bound_functions:.4e}" in row
     assert "certified" in row
-    sphere_model.save(tmp_path / "sphere.pfg")
-    assert "max of functions" not in command_line("info", "sphere.pfg").stdout
+    soup_model.save(tmp_path / "soup.pfg")
+    assert "max of functions" not in command_line("info", "soup.pfg").stdout
 
 
 def test_quiet(command_line, torus_pfg):
