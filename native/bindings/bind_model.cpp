@@ -8,6 +8,7 @@
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/function/check.h"
+#include "pfgeom/report/function_list.h"
 
 #include <pybind11/stl.h>
 
@@ -95,6 +96,11 @@ ModelPointer placed(const ModelPointer& handle, std::vector<std::string> names,
     });
 }
 
+py::list function_list_of(const ModelPointer& handle) {
+    return describe_function_list(
+        Job().run([=](const Task& task) { return list_functions(handle->model(), task); }));
+}
+
 py::list names_of(const ModelHandle& handle) {
     py::list names;
     for (const std::string& name : handle.model().names) names.append(py::str(name));
@@ -122,6 +128,7 @@ void bind_model(py::module_& m) {
         .def("world_transform", [](const ModelHandle& h) { return h.model().world_transform; })
         .def("placed", &placed, py::arg("names"), py::arg("world_transform"))
         .def("functions", [](const ModelHandle& h) { return describe_functions(h.model()); })
+        .def("function_list", &function_list_of)
         .def("objects", [](const ModelHandle& h) { return describe_objects(h.model()); })
         .def("promise", [](const ModelHandle& h) { return describe_promise(h.model()); })
         .def("sizes", [](const ModelHandle& h) { return describe_sizes(h.model()); });

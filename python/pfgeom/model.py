@@ -259,6 +259,22 @@ class Model:
         return FunctionCount(*self._core.functions())
 
     @cached_property
+    def function_list(self) -> list[dict[str, Any]]:
+        """What the functions are: one dict for each quadric of a set tree and each function of another object.
+
+        A quadric is the simplest shape that stays within `tolerance` of it over its part of the surface, so ten
+        rounded coefficients may be a circular cylinder. Found on demand, in some ten milliseconds.
+
+        Each has ``kind``, such as ``"circular cylinder"``; ``object``, its number in `objects`; ``surface``, False of
+        what only tells parts of space from each other or trims a sheet; ``perturbations``, how many are added to it.
+        In the mesh's units, where they make sense: ``area`` of its part of the surface (an estimate, of set trees);
+        ``point``, ``centre``, ``apex`` or ``vertex``; ``normal``, ``axis``, or three ``axes``; ``radius``,
+        ``semi_axes``, ``distance`` or ``focal_length``; ``half_angle`` or ``angle`` in degrees; ``hollow``, whether
+        the solid lies outside, as of a hole.
+        """
+        return self._core.function_list()
+
+    @cached_property
     def objects(self) -> list[dict[str, Any]]:
         """One dict an object: ``kind`` (solid, sheet, mesh, tree), ``cavity_of``, ``instances``, counts."""
         return self._core.objects()
@@ -321,6 +337,7 @@ class Model:
             **self._promise,
             "bounds": self.bounds.tolist(),
             "objects": self.objects,
+            "function_list": self.function_list,
             "sizes": self._core.sizes(),
         }
 

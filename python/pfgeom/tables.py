@@ -67,6 +67,7 @@ def info(f: dict[str, Any]) -> list[Row]:
             ", ".join(f"{kind}: {count:,}" for kind, count in kinds.items()),
         ),
         *_quadrics(f),
+        *_kinds(f),
         *_promise(f),
         ("diagonal", f"{f['diagonal']:.6g}", "of the input's bounding box"),
         ("bounds", "", f"{_point(low)} to {_point(high)}"),
@@ -103,6 +104,20 @@ def _quadrics(f: dict[str, Any]) -> list[Row]:
         families.update(entry.get("families", {}))
     names = ", ".join(f"{name}: {count:,}" for name, count in families.most_common())
     return [("quadrics", f"{families.total():,}", names)] if families else []
+
+
+def _kinds(f: dict[str, Any]) -> list[Row]:
+    """What the functions are, the most frequent kind first; apart, what is no surface."""
+    rows = []
+    for label, surface in (("kinds", True), ("no surface", False)):
+        of_kind = Counter(
+            entry["kind"] + (" with perturbations" if entry["perturbations"] else "")
+            for entry in f["function_list"]
+            if entry["surface"] is surface
+        )
+        names = ", ".join(f"{kind}: {count:,}" for kind, count in of_kind.most_common())
+        rows += [(label, f"{of_kind.total():,}", names)] if of_kind else []
+    return rows
 
 
 def _promise(f: dict[str, Any]) -> list[Row]:

@@ -51,7 +51,7 @@ def sphere_model() -> pfgeom.Model:
 @pytest.fixture(scope="session")
 def torus_model() -> pfgeom.Model:
     """Has a hierarchy of perturbations."""
-    return pfgeom.compress(*shapes.torus(ripple=0.3), tolerance=2e-3, metric="rms")
+    return pfgeom.compress(*shapes.bumpy_torus(), tolerance=2e-3, metric="rms")
 
 
 @pytest.fixture(scope="session")

@@ -49,6 +49,12 @@ def torus(rows: int = 48, columns: int = 24, radius: float = 0.4, ripple: float 
     return vertices.reshape(-1, 3), grid(rows, columns, True, True)
 
 
+def bumpy_torus():
+    """A free form without symmetry: no few quadrics serve it."""
+    vertices, faces = torus(ripple=0.3)
+    return vertices * (1 + 0.03 * np.sin(vertices @ [[5.0], [7.0], [6.0]])), faces
+
+
 def cube():
     vertices = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -87,6 +93,27 @@ def gear(teeth: int = 10):
     k, top, bottom = (j + 1) % n, np.full(n, 2 * n), np.full(n, 2 * n + 1)
     faces = [(j, n + j, n + k), (j, n + k, k), (top, j, k), (bottom, n + k, n + j)]
     return vertices, np.concatenate([np.stack(f, axis=1) for f in faces])
+
+
+def bored_block(radius: float = 3.0, n: int = 64):
+    """A block of 20 x 14 x 8 about the origin with a hole of this radius along z."""
+    corners = np.array([[10.0, 7], [-10, 7], [-10, -7], [10, -7]])
+    a = 2 * np.pi * np.arange(n) / n
+    circle = radius * np.stack([np.cos(a), np.sin(a)], axis=1)
+    rim = np.concatenate([corners, circle])
+    half = np.full((n + 4, 1), 4.0)
+    vertices = np.concatenate([np.hstack([rim, half]), np.hstack([rim, -half])])
+    top = []
+    for side in range(4):  # a fan from each corner to its quarter of the circle, and one to the next corner
+        quarter = 4 + (n // 8 + np.arange(-(n // 8), n // 8 + 1) + side * n // 4) % n
+        top += [(side, b, a) for a, b in zip(quarter[1:], quarter[:-1], strict=True)]
+        top.append((side, quarter[-1], (side + 1) % 4))
+    top = np.array(top)[:, ::-1]
+    m = n + 4
+    outer = [(j, (j + 1) % 4) for j in range(4)]
+    inner = [(4 + (j + 1) % n, 4 + j) for j in range(n)]
+    walls = [t for a, b in outer + inner for t in ((a, a + m, b + m), (a, b + m, b))]
+    return vertices, np.concatenate([top, top[:, ::-1] + m, walls])
 
 
 def soup(count: int = 30):

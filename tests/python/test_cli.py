@@ -87,7 +87,16 @@ def test_info_lists_the_quadrics_of_set_trees(sphere_model):
     assert rows["quadrics"] == ("6", "plane: 5, sphere: 1")
 
 
-def test_info_says_what_is_proved_of_the_functions(command_line, tmp_path, gear_model, sphere_model):
+def test_info_lists_the_kinds_of_functions(sphere_model):
+    info = {"input": "sphere.pfg", **sphere_model.info()}
+    plane = {"kind": "plane", "surface": True, "perturbations": 0}
+    info["function_list"] += [plane, plane, plane | {"surface": False}, plane | {"kind": "sphere", "perturbations": 7}]
+    rows = {label: (figure, remark) for label, figure, remark in tables.info(info)}
+    assert rows["kinds"] == ("4", "plane: 2, sphere: 1, sphere with perturbations: 1")
+    assert rows["no surface"] == ("1", "plane: 1")
+
+
+def test_info_says_what_is_proved_of_the_functions(command_line, tmp_path, gear_model, soup_model):
     gear_model.save(tmp_path / "gear.pfg")
     info = figures(command_line("info", "gear.pfg", "--json"))
     assert info["bound_functions"] == gear_model.bound_functions
@@ -95,8 +104,8 @@ def test_info_says_what_is_proved_of_the_functions(command_line, tmp_path, gear_
     row = next(line for line in command_line("info", "gear.pfg").stdout.splitlines() if "max of functions" in line)
     assert f"{gear_model.bound_functions:.4e}" in row
     assert "certified" in row
-    sphere_model.save(tmp_path / "sphere.pfg")
-    assert "max of functions" not in command_line("info", "sphere.pfg").stdout
+    soup_model.save(tmp_path / "soup.pfg")
+    assert "max of functions" not in command_line("info", "soup.pfg").stdout
 
 
 def test_quiet(command_line, torus_pfg):

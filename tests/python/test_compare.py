@@ -43,8 +43,8 @@ def test_agrees_with_brute_force():
 
 
 def test_models_count_as_their_default_mesh(torus_model):
-    by_model = pfgeom.compare(shapes.torus(ripple=0.3), torus_model, samples=20_000)
-    by_mesh = pfgeom.compare(shapes.torus(ripple=0.3), torus_model.to_mesh(), samples=20_000)
+    by_model = pfgeom.compare(shapes.bumpy_torus(), torus_model, samples=20_000)
+    by_mesh = pfgeom.compare(shapes.bumpy_torus(), torus_model.to_mesh(), samples=20_000)
     assert by_model == by_mesh
     assert by_model.max <= torus_model.bound_mesh
 

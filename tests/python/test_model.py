@@ -230,6 +230,44 @@ def test_info(torus_model):
     assert {entry["kind"] for entry in torus_model.objects} <= {"solid", "sheet", "mesh", "tree"}
 
 
+def test_function_list(sphere_model, gear_model, torus_model, soup_model):
+    (sphere,) = sphere_model.function_list
+    assert sphere["kind"] == "sphere"
+    assert sphere["surface"] is True
+    expected = shapes.sphere()[0]
+    middle = (expected.min(axis=0) + expected.max(axis=0)) / 2
+    assert np.linalg.norm(np.subtract(sphere["centre"], middle)) < 2 * sphere_model.tolerance
+    radius = np.linalg.norm(expected - middle, axis=1).max()
+    assert sphere["radius"] == pytest.approx(radius, abs=2 * sphere_model.tolerance)
+
+    gear = gear_model.function_list
+    assert len(gear) == gear_model.functions.surface
+    assert {entry["object"] for entry in gear} == {0}
+    assert [entry["perturbations"] for entry in gear] == [0] * len(gear)
+    for entry in gear:
+        assert entry["surface"] is ("area" in entry)
+        for direction in (entry.get("normal"), entry.get("axis"), *entry.get("axes", ())):
+            assert direction is None or np.linalg.norm(direction) == pytest.approx(1)
+
+    assert sum(entry["perturbations"] for entry in torus_model.function_list) == torus_model.functions.perturbations > 0
+    assert soup_model.function_list == []
+
+
+def test_a_bore_is_a_hollow_cylinder_in_the_meshs_own_units():
+    """Askew and far from the origin; its half angles are in degrees."""
+    part = shapes.bored_block(radius=3.0)
+    turn = np.linalg.qr(np.array([[3.0, 1, 2], [1, -2, 1], [2, 1, -1]]))[0]
+    place = np.array([50.0, -20.0, 10.0])
+    model = pfgeom.compress(part[0] @ turn.T + place, part[1], tolerance=1e-3)
+    (bore,) = (entry for entry in model.function_list if entry["kind"] == "circular cylinder")
+    assert bore["hollow"] is True
+    assert bore["radius"] == pytest.approx(3, abs=2 * model.tolerance)
+    axis = turn[:, 2]
+    assert np.linalg.norm(np.cross(bore["axis"], axis)) < 0.01
+    assert np.linalg.norm(np.cross(np.subtract(bore["point"], place), axis)) < 2 * model.tolerance
+    assert bore["area"] == pytest.approx(2 * np.pi * 3 * 8, rel=0.05)
+
+
 def test_what_is_proved_of_the_functions(gear_model, sphere_model, soup_model):
     assert gear_model.objects[0]["kind"] == "tree"
     assert gear_model.functions_certified
@@ -239,8 +277,9 @@ def test_what_is_proved_of_the_functions(gear_model, sphere_model, soup_model):
     assert found <= gear_model.bound_functions + chords * gear_model.diagonal
     info = pfgeom.from_bytes(gear_model.to_bytes()).info()
     assert (info["bound_functions"], info["functions_certified"]) == (gear_model.bound_functions, True)
-    for model in (sphere_model, soup_model):
-        assert (model.bound_functions, model.functions_certified) == (0, False)
+    assert sphere_model.functions_certified
+    assert 0 < sphere_model.bound_functions <= sphere_model.tolerance
+    assert (soup_model.bound_functions, soup_model.functions_certified) == (0, False)
 
 
 def test_bounds_hold_the_surface(torus_model):

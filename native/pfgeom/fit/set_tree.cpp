@@ -1,6 +1,7 @@
 #include "pfgeom/fit/set_tree.h"
 
 #include "pfgeom/base/parallel.h"
+#include "pfgeom/fit/shared_integers.h"
 #include "pfgeom/fit/tree_checks.h"
 #include "pfgeom/fit/tree_patches.h"
 #include "pfgeom/fit/tree_seams.h"
@@ -20,6 +21,7 @@ struct Effort {
     std::size_t samples;  // of the innermost shell, for each quadric
     std::size_t most_samples;
     int scales;               // of a quadric
+    std::size_t orders;       // in which quadrics are made to share integers
     std::vector<int> powers;  // settings that are scouted
     std::vector<double> single_weights;
     std::vector<int> peeled_powers;
@@ -28,9 +30,10 @@ struct Effort {
 };
 
 Effort effort_of(int level) {
-    if (level <= 0) return {1000, 100000, 16, {2, 4}, {0.4}, {4}, 1, 1};
-    if (level == 1) return {3000, 300000, 40, {1, 2, 3, 4, 6}, {0.1, 0.2, 0.5, 0.9}, {2, 4}, 4, 6};
-    return {6000, 800000, 80, {1, 2, 3, 4, 5, 6, 8}, {0.1, 0.2, 0.35, 0.5, 0.7, 0.9}, {1, 2, 4, 6}, 8, 10};
+    if (level <= 0) return {1000, 100000, 16, 4, {2, 4}, {0.4}, {4}, 1, 1};
+    if (level == 1) return {3000, 300000, 40, 16, {1, 2, 3, 4, 6}, {0.1, 0.2, 0.5, 0.9}, {2, 4}, 4, 6};
+    return {6000,         800000, 80, 64, {1, 2, 3, 4, 5, 6, 8}, {0.1, 0.2, 0.35, 0.5, 0.7, 0.9},
+            {1, 2, 4, 6}, 8,      10};
 }
 
 // The more seams, the more there is to see; too few are dear, since what they miss is mended leaf by leaf
@@ -104,6 +107,8 @@ void quantise_regions(const TriangleMesh& mesh, const std::vector<Region>& regio
         }
         own[r] = *best;
     });
+    share_integers(checks, resolution, options.tolerance * options.tolerance,
+                   effort_of(options.effort).orders, own, task);
     Patches patches = assign_patches(mesh, regions, own, options.tolerance * options.quantise_share);
     fit.quadrics = std::move(patches.quadrics);
     fit.patches = std::move(patches.of_face);

@@ -1,8 +1,6 @@
 // The quadric of a region in integers: the family, the units and the integers that take the fewest bits while
 // the surface stays where it must. Source: set-partitioned closed-loop quantisation as in audio and video
-// coders; the successive rounding is Babai's nearest plane ("On Lovász' lattice reduction and the nearest
-// lattice point problem", Combinatorica 6, 1986) with the region's own least squares as the norm. Departure:
-// the scale of a quadric is free, so it is searched as well.
+// coders. Departure: the scale of a quadric is free, so it is searched as well.
 #pragma once
 
 #include "pfgeom/function/set_tree.h"
@@ -36,6 +34,12 @@ struct QuantisedQuadric {
 
 /// Does the quadric pass all points within their limits (to first order)?
 bool passes(const Quadric& q, const std::vector<CheckPoint>& points);
+
+/// The same; the point that does not comes first in the list, where it is found sooner the next time.
+bool passes_in_turn(const Quadric& q, std::vector<CheckPoint>& points);
+
+/// Estimated bits of one integer.
+double integer_bits(std::int32_t n);
 
 /// Estimated bits of a quadric's family, units and integers.
 double estimated_bits(const TreeQuadric& q);

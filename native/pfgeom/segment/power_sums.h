@@ -5,8 +5,8 @@
 // the two ten by ten systems only 35 sums of powers and 12 of normals differ.
 #pragma once
 
+#include "pfgeom/base/cholesky.h"
 #include "pfgeom/function/quadric.h"
-#include "pfgeom/segment/cholesky.h"
 
 #include <array>
 

@@ -1,0 +1,116 @@
+#include "pfgeom/report/function_list.h"
+
+#include "pfgeom/eval/tree_surface.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pfgeom {
+namespace {
+
+using Kind = QuadricKind;
+
+bool has_angles(Kind kind) {
+    return kind == Kind::circular_cone || kind == Kind::elliptic_cone || kind == Kind::crossing_planes;
+}
+
+// From an object's cube to the world.
+QuadricShape in_world(QuadricShape shape, const Frame& frame) {
+    shape.centre = frame.to_world(shape.centre);
+    if (has_angles(shape.kind)) return shape;  // tangents
+    for (double& size : shape.sizes) size *= frame.half();
+    return shape;
+}
+
+// Does the solid lie on the far side, seen from the centre or the axis?
+bool is_hollow(const QuadricShape& shape, const Quadric& quadric, const QuadricPatch& patch) {
+    const bool around_axis = shape.kind == Kind::circular_cylinder || shape.kind == Kind::circular_cone;
+    if (!around_axis && shape.kind != Kind::sphere) return false;
+    double outwards = 0;  // towards the positive side
+    for (const Vec3& p : patch.points) {
+        Vec3 d = p - shape.centre;
+        if (around_axis) d = d - dot(d, shape.axes[0]) * shape.axes[0];
+        outwards += dot(normalized(quadric.gradient(p)), normalized(d));
+    }
+    return (outwards > 0) == (2 * patch.area_above > patch.area);
+}
+
+class FunctionLister {
+  public:
+    FunctionLister(const Model& model, const Task& task)
+        : model_(model), task_(task), row_(model.functions.size(), -1) {}
+
+    std::vector<ListedFunction> run() {
+        for (; object_ < static_cast<std::int32_t>(model_.objects.size()); ++object_) {
+            const Object& object = model_.objects[static_cast<std::size_t>(object_)];
+            if (const auto* tree = std::get_if<SetTree>(&object.shape)) add(*tree, object.frame);
+            if (const auto* solid = std::get_if<Solid>(&object.shape)) add(*solid, object.frame);
+            if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
+                add(sheet->surface, true, object.frame);
+                add(sheet->trim, false, object.frame);
+            }
+        }
+        return std::move(list_);
+    }
+
+  private:
+    void add(const SetTree& tree, const Frame& frame) {
+        const TreeSurface surface = find_surface(tree, task_);
+        const double half = frame.half(), tolerance = model_.promise.tolerance / half;
+        for (std::size_t q = 0; q < tree.quadrics.size(); ++q) {
+            task_.check();
+            const Quadric& quadric = tree.quadrics[q].quadric;
+            const QuadricPatch& patch = surface.patches[q];
+            const QuadricShape shape = shape_of(quadric, patch.points, tolerance);
+            list_.push_back({.object = object_,
+                             .shape = in_world(shape, frame),
+                             .surface = !patch.points.empty(),
+                             .area = patch.area * half * half,
+                             .hollow = is_hollow(shape, quadric, patch)});
+        }
+    }
+
+    void add(const Solid& solid, const Frame& frame) {
+        for (const SetNode& node : solid.nodes) {
+            if (node.kind == SetNode::Kind::function) add(node.a, true, frame);
+            if (node.kind == SetNode::Kind::decide) add(node.f, false, frame);
+        }
+    }
+
+    // A function is listed once, as a surface if it is one anywhere.
+    void add(std::int32_t index, bool surface, const Frame& frame) {
+        std::int32_t& row = row_[static_cast<std::size_t>(index)];
+        if (row < 0) {
+            row = static_cast<std::int32_t>(list_.size());
+            list_.push_back(listed(model_.functions[static_cast<std::size_t>(index)], frame));
+            list_.back().surface = surface;
+        } else if (surface) {
+            list_[static_cast<std::size_t>(row)].surface = true;
+        }
+    }
+
+    ListedFunction listed(const Function& function, const Frame& frame) const {
+        auto perturbations = static_cast<std::int64_t>(function.perturbations.size());
+        for (const Level& level : function.levels)
+            perturbations += std::ranges::count_if(level.z, [](std::int32_t z) { return z != 0; });
+        const std::vector<Vec3> points = points_on(function.base, {{-1, -1, -1}, {1, 1, 1}});
+        const double tolerance = model_.promise.tolerance / frame.half();
+        return {.object = object_,
+                .shape = in_world(shape_of(function.base, points, tolerance), frame),
+                .perturbations = perturbations};
+    }
+
+    const Model& model_;
+    const Task& task_;
+    std::vector<std::int32_t> row_;  // in the list, of each function
+    std::vector<ListedFunction> list_;
+    std::int32_t object_ = 0;
+};
+
+}  // namespace
+
+std::vector<ListedFunction> list_functions(const Model& model, const Task& task) {
+    return FunctionLister(model, task).run();
+}
+
+}  // namespace pfgeom
