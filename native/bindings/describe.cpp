@@ -21,7 +21,8 @@ py::dict describe_shape(const Sheet&) {
     return py::dict("kind"_a = "sheet");
 }
 py::dict describe_shape(const MeshPart& part) {
-    return py::dict("kind"_a = "mesh", "vertices"_a = part.positions.size(), "faces"_a = part.faces.size());
+    return py::dict("kind"_a = part.curved() ? "patches" : "mesh", "vertices"_a = part.positions.size(),
+                    "faces"_a = part.faces.size());
 }
 // Its quadrics by family, in the order of the families.
 py::dict describe_shape(const SetTree& tree) {

@@ -31,7 +31,7 @@ class FunctionCount(NamedTuple):
     perturbations : int
         Perturbations with a form factor that is not zero.
     mesh_part_faces : int
-        Triangles of mesh parts, which are no functions and are counted apart.
+        Triangles of mesh parts, flat or curved ("patches"), which are no functions and are counted apart.
     """
 
     surface: int

@@ -92,8 +92,10 @@ def compared(f: dict[str, Any]) -> list[Row]:
 
 def _functions(f: dict[str, Any]) -> Row:
     count = FunctionCount(**f["functions"])
-    patches = f" and {count.mesh_part_faces:,} triangles of mesh parts" if count.mesh_part_faces else ""
-    return ("functions", str(count), "surface + separators + perturbations" + patches)
+    curved = sum(entry["faces"] for entry in f["objects"] if entry["kind"] == "patches")
+    flat = count.mesh_part_faces - curved
+    parts = [f" and {n:,} {what}" for n, what in ((curved, "curved patches"), (flat, "triangles of mesh parts")) if n]
+    return ("functions", str(count), "surface + separators + perturbations" + "".join(parts))
 
 
 def _quadrics(f: dict[str, Any]) -> list[Row]:

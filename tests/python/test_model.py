@@ -227,7 +227,7 @@ def test_info(torus_model):
     assert info["metric"] == torus_model.metric == "rms"
     assert info["functions"] == torus_model.functions._asdict()
     assert 0 < torus_model.rms <= torus_model.tolerance
-    assert {entry["kind"] for entry in torus_model.objects} <= {"solid", "sheet", "mesh", "tree"}
+    assert {entry["kind"] for entry in torus_model.objects} <= {"solid", "sheet", "mesh", "patches", "tree"}
 
 
 def test_what_is_proved_of_the_functions(gear_model, sphere_model, soup_model):
