@@ -55,7 +55,8 @@ py::dict describe_defects(const MeshDefects& d) {
 
 py::tuple describe_functions(const Model& model) {
     const FunctionCount count = count_functions(model);
-    return py::make_tuple(count.surface, count.separators, count.perturbations, count.mesh_part_faces);
+    return py::make_tuple(count.surface, count.separators, count.perturbations, count.mesh_part_faces,
+                          count.patches);
 }
 
 py::list describe_objects(const Model& model) {

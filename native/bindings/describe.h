@@ -8,7 +8,7 @@
 namespace pfgeom::bindings {
 
 pybind11::tuple describe_functions(
-    const Model& model);  ///< surface, separators, perturbations, mesh_part_faces
+    const Model& model);  ///< surface, separators, perturbations, mesh_part_faces, patches
 pybind11::list describe_objects(const Model& model);
 pybind11::dict describe_promise(const Model& model);
 pybind11::dict describe_sizes(const Model& model);

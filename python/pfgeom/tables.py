@@ -92,9 +92,8 @@ def compared(f: dict[str, Any]) -> list[Row]:
 
 def _functions(f: dict[str, Any]) -> Row:
     count = FunctionCount(**f["functions"])
-    curved = sum(entry["faces"] for entry in f["objects"] if entry["kind"] == "patches")
-    flat = count.mesh_part_faces - curved
-    parts = [f" and {n:,} {what}" for n, what in ((curved, "curved patches"), (flat, "triangles of mesh parts")) if n]
+    counts = ((count.patches, "curved patches"), (count.mesh_part_faces, "triangles of mesh parts"))
+    parts = [f" and {n:,} {what}" for n, what in counts if n]
     return ("functions", str(count), "surface + separators + perturbations" + "".join(parts))
 
 

@@ -132,7 +132,8 @@ FunctionCount count_functions(const Model& model) {
     std::vector<std::uint8_t> surface(model.functions.size()), used(model.functions.size());
     for (const Object& object : model.objects) {
         if (const auto* part = std::get_if<MeshPart>(&object.shape)) {
-            count.mesh_part_faces += static_cast<std::int64_t>(part->faces.size());
+            (part->curved() ? count.patches : count.mesh_part_faces) +=
+                static_cast<std::int64_t>(part->faces.size());
         } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
             surface[static_cast<std::size_t>(sheet->surface)] = used[static_cast<std::size_t>(sheet->trim)] =
                 1;

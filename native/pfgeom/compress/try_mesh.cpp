@@ -1,6 +1,8 @@
+#include "pfgeom/base/error.h"
 #include "pfgeom/codec/mesh_part_codec.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
+#include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/fit/collapse_estimate.h"
 #include "pfgeom/fit/simplify.h"
 
@@ -12,21 +14,39 @@
 namespace pfgeom {
 namespace {
 
-// Of the tolerance: how far the default mesh may be from the curved faces.
-constexpr double kChordShare = 0.08;
+// Of the tolerance: how far the default mesh may be from the curved faces, and how far where it would have
+// more than so many times the input's triangles.
+constexpr double kChordShare = 0.08, kMostChordShare = 0.5;
+constexpr std::size_t kMostTriangles = 3;
 // Larger meshes are not tried curved unless the effort is the best: it takes two to five times as long.
 constexpr std::size_t kMostCurved = 100'000;
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+
+// The finest default mesh that is not too large for the input.
+std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
+    std::uint8_t code = mesh_code_for(goal, kChordShare * goal.tolerance);
+    const std::uint8_t least = mesh_code_for(goal, kMostChordShare * goal.tolerance);
+    const auto triangles = [&] {
+        try {
+            return mesh_of(object, {.chord = goal.diagonal * exp2_eighths(-2 * int{code})}).faces.size();
+        } catch (const LimitExceeded&) {
+            return kNoLimit;
+        }
+    };
+    while (code > least && triangles() > kMostTriangles * goal.mesh.faces.size()) --code;
+    return code;
+}
 
 Outcome attempt(const Goal& goal, double share, bool curved, const Task& task) {
     Outcome outcome;
     outcome.candidate = "mesh";
     const double chord = curved ? kChordShare * goal.tolerance : 0;
     outcome.object = fit_mesh_part(goal.mesh, {goal.tolerance - chord, goal.metric, share, curved}, task);
-    if (curved) outcome.object.mesh_code = mesh_code_for(goal, chord);
+    if (curved) outcome.object.mesh_code = mesh_code_of(goal, outcome.object);
     auto& part = std::get<MeshPart>(outcome.object.shape);
     part = canonical(part);
     prove(goal, outcome, task);
+    if (curved && outcome.mesh.faces.size() > kMostTriangles * goal.mesh.faces.size()) outcome.holds = false;
     return outcome;
 }
 

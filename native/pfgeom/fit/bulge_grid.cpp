@@ -13,13 +13,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 3;
-// As in spokes.cpp.
-constexpr double kCreaseCosine = 0.3;
-// Bulges that are tried, in steps from the rounded one: the best of the first kStraight, then on until one
-// keeps the limit.
-constexpr std::array<std::array<std::int32_t, 2>, 9> kTrials{
-    {{0, 0}, {1, 0}, {-1, 0}, {2, 0}, {-2, 0}, {0, 1}, {0, -1}, {0, 2}, {0, -2}}};
-constexpr std::size_t kStraight = 3;
+// Bulges that are tried, in steps along the normal and sideways from the rounded one: the best of those along
+// the normal; if none keeps the limit, until one does.
+constexpr std::array<std::int32_t, 3> kStraight{0, 1, -1};
+constexpr std::array<std::array<std::int32_t, 2>, 9> kOthers{
+    {{2, 0}, {-2, 0}, {0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}}};
 
 class BulgeSnapper {
   public:
@@ -99,18 +97,19 @@ class BulgeSnapper {
         const auto steps = [&](const Vec3& axis) {
             return static_cast<std::int32_t>(std::floor(dot(now, axis) / step_ + 0.5));
         };
-        const bool bent = axes.faces != 2 || axes.fold < kCreaseCosine;
-        const Bulge middle{steps(axes.normal), bent ? steps(axes.sideways) : 0};
-        Bulge best = middle;
+        const Bulge rounded{steps(axes.normal), steps(axes.sideways)};
+        Bulge best{rounded.normal, 0};
         double least = kInfinity;
-        for (std::size_t i = 0; i < kTrials.size(); ++i) {
-            if (i >= kStraight && least <= limit) break;
-            const Bulge b{middle.normal + kTrials[i][0], middle.sideways + kTrials[i][1]};
+        const auto try_bulge = [&](const Bulge& b) {
             const double c = cost(row, b, least);
-            if (!(c < least)) continue;
+            if (!(c < least)) return;
             least = c;
             best = b;
-        }
+        };
+        for (const std::int32_t i : kStraight) try_bulge({rounded.normal + i, 0});
+        // Creases and borders need it; and where the faces have turned since a bulge was found, it leans.
+        for (std::size_t i = 0; i < kOthers.size() && least > limit; ++i)
+            try_bulge({rounded.normal + kOthers[i][0], rounded.sideways + kOthers[i][1]});
         part_.bulges[row] = best;
         propose(row, vector_of(row, best));
         error_.commit(patch_);

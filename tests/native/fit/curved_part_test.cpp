@@ -25,8 +25,9 @@ std::size_t faces(const Object& object) {
 
 TEST(CurvedPart, KeepsTheToleranceOnShapesOfEveryKind) {
     for (const TriangleMesh& mesh :
-         {shapes::cube(), shapes::saddle(10), shapes::moebius(24), shapes::misoriented_sphere(),
-          shapes::edge_fan(), shapes::cubes_sharing_edge(), shapes::sliver_fan()}) {
+         {shapes::cube(), shapes::sphere(2), shapes::cylinder(), shapes::saddle(10), shapes::moebius(24),
+          shapes::misoriented_sphere(), shapes::edge_fan(), shapes::cubes_sharing_edge(),
+          shapes::sliver_fan()}) {
         const double tolerance = 1e-2 * diagonal(mesh);
         SCOPED_TRACE(testing::Message() << mesh.faces.size() << " faces");
         const double first = reached(mesh, curved(mesh, tolerance), tolerance);
