@@ -18,7 +18,8 @@ namespace {
 // more than so many times the input's triangles.
 constexpr double kChordShare = 0.08, kMostChordShare = 0.5;
 constexpr std::size_t kMostTriangles = 3;
-// Larger meshes are not tried curved unless the effort is the best: it takes two to five times as long.
+// Larger meshes are not tried curved unless the effort is the best: it takes two to five times as long. Nor
+// is the rms, whose searches for a share make that twenty.
 constexpr std::size_t kMostCurved = 100'000;
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
@@ -114,8 +115,8 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task) {
 
 Outcome try_mesh(const Goal& goal, const Task& task) {
     Outcome flat = try_flat(goal, task);
-    if (goal.effort == Effort::fast || (goal.mesh.faces.size() > kMostCurved && goal.effort != Effort::best))
-        return flat;
+    const bool quick = goal.metric == Metric::max && goal.mesh.faces.size() <= kMostCurved;
+    if (goal.effort == Effort::fast || (goal.effort == Effort::normal && !quick)) return flat;
     std::optional<Outcome> curved = try_curved(goal, flat.bytes, task);
     return curved ? *std::move(curved) : flat;
 }
