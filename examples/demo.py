@@ -56,7 +56,7 @@ def row(path: Path, tolerance: float, out: Path) -> tuple[str, ...]:
         f"{tolerance:g}",
         f"{len(mesh.faces):,}",
         f"{raw:,}",
-        f"{model.functions} (+ {model.functions.mesh_part_faces:,})",
+        f"{model.functions} (+ {model.functions.mesh_part_faces + model.functions.patches:,})",
         f"{model.nbytes:,}",
         f"{raw / model.nbytes:,.0f} : 1",
         f"{found.max / found.diagonal:.2e}",

@@ -21,7 +21,8 @@ py::dict describe_shape(const Sheet&) {
     return py::dict("kind"_a = "sheet");
 }
 py::dict describe_shape(const MeshPart& part) {
-    return py::dict("kind"_a = "mesh", "vertices"_a = part.positions.size(), "faces"_a = part.faces.size());
+    return py::dict("kind"_a = part.curved() ? "patches" : "mesh", "vertices"_a = part.positions.size(),
+                    "faces"_a = part.faces.size());
 }
 // Its quadrics by family, in the order of the families.
 py::dict describe_shape(const SetTree& tree) {
@@ -54,7 +55,8 @@ py::dict describe_defects(const MeshDefects& d) {
 
 py::tuple describe_functions(const Model& model) {
     const FunctionCount count = count_functions(model);
-    return py::make_tuple(count.surface, count.separators, count.perturbations, count.mesh_part_faces);
+    return py::make_tuple(count.surface, count.separators, count.perturbations, count.mesh_part_faces,
+                          count.patches);
 }
 
 py::list describe_objects(const Model& model) {

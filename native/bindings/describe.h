@@ -11,7 +11,7 @@
 namespace pfgeom::bindings {
 
 pybind11::tuple describe_functions(
-    const Model& model);  ///< surface, separators, perturbations, mesh_part_faces
+    const Model& model);  ///< surface, separators, perturbations, mesh_part_faces, patches
 pybind11::list describe_function_list(const std::vector<ListedFunction>& functions);
 pybind11::list describe_objects(const Model& model);
 pybind11::dict describe_promise(const Model& model);

@@ -31,13 +31,16 @@ class FunctionCount(NamedTuple):
     perturbations : int
         Perturbations with a form factor that is not zero.
     mesh_part_faces : int
-        Triangles of mesh parts, which are no functions and are counted apart.
+        Flat triangles of mesh parts, which are no functions and are counted apart.
+    patches : int
+        Curved triangles of mesh parts, which are no functions either.
     """
 
     surface: int
     separators: int
     perturbations: int
     mesh_part_faces: int
+    patches: int = 0
 
     def __str__(self) -> str:
         return f"{self.surface} + {self.separators} + {self.perturbations}"

@@ -93,8 +93,9 @@ def compared(f: dict[str, Any]) -> list[Row]:
 
 def _functions(f: dict[str, Any]) -> Row:
     count = FunctionCount(**f["functions"])
-    patches = f" and {count.mesh_part_faces:,} triangles of mesh parts" if count.mesh_part_faces else ""
-    return ("functions", str(count), "surface + separators + perturbations" + patches)
+    counts = ((count.patches, "curved patches"), (count.mesh_part_faces, "triangles of mesh parts"))
+    parts = [f" and {n:,} {what}" for n, what in counts if n]
+    return ("functions", str(count), "surface + separators + perturbations" + "".join(parts))
 
 
 def _quadrics(f: dict[str, Any]) -> list[Row]:

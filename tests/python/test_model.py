@@ -227,7 +227,7 @@ def test_info(torus_model):
     assert info["metric"] == torus_model.metric == "rms"
     assert info["functions"] == torus_model.functions._asdict()
     assert 0 < torus_model.rms <= torus_model.tolerance
-    assert {entry["kind"] for entry in torus_model.objects} <= {"solid", "sheet", "mesh", "tree"}
+    assert {entry["kind"] for entry in torus_model.objects} <= {"solid", "sheet", "mesh", "patches", "tree"}
 
 
 def test_function_list(sphere_model, gear_model, torus_model, soup_model):
@@ -295,6 +295,6 @@ def test_bounds_hold_the_surface(torus_model):
 def test_headline(torus_model, soup_model):
     assert str(pfgeom.FunctionCount(83, 0, 0, 0)) == "83 + 0 + 0"
     assert torus_model.functions.surface >= 1
-    assert soup_model.functions.mesh_part_faces > 0
+    assert soup_model.functions.mesh_part_faces + soup_model.functions.patches > 0
     assert str(torus_model.functions) in repr(torus_model)
     assert f"{torus_model.nbytes:,} bytes" in repr(torus_model)

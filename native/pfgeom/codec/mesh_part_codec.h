@@ -1,4 +1,4 @@
-// The coded control mesh: connectivity, then positions predicted from it.
+// The coded control mesh: connectivity with positions predicted from it, then the bulges of its edges.
 #pragma once
 
 #include "pfgeom/base/limits.h"
@@ -15,8 +15,9 @@ MeshPart canonical(const MeshPart& part);
 
 /// Codes `part` (canonical) or reads into it. Any face list without repeated corners is allowed
 /// (non-manifold, mixed orientation, duplicates). `budget_bytes`: bytes of the stream; counts beyond what
-/// they can hold give limit_exceeded. Kinds 128..191 of the mixer are this codec's.
-FormatStatus code_mesh_part(EntropyCoder& coder, ContextMixer& mixer, MeshPart& part,
+/// they can hold give limit_exceeded. `curved`: with a bulge on each edge. Kinds 128..191 of the mixer are
+/// this codec's.
+FormatStatus code_mesh_part(EntropyCoder& coder, ContextMixer& mixer, MeshPart& part, bool curved,
                             std::size_t budget_bytes);
 
 }  // namespace pfgeom

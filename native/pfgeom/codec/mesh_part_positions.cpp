@@ -1,5 +1,7 @@
 #include "pfgeom/codec/mesh_part_positions.h"
 
+#include "pfgeom/codec/residual.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,13 +16,6 @@ enum Kind : std::uint32_t {
     kSteep = 160,
     kLevel = 164
 };  // each residual takes four
-constexpr std::uint32_t kZero = 0, kSign = 1, kExponent = 2, kMantissa = 3;
-
-// log2(1 + x) in half octaves, x >= 0 in grid steps.
-std::uint32_t half_octaves(double x) {
-    const double sixteenths = std::min(x, 1e8) * 16;
-    return static_cast<std::uint32_t>(log2_sixteenths(static_cast<std::uint32_t>(sixteenths))) / 8;
-}
 
 // The coarsest lattice, of 2^level steps, that both coordinates lie on: fitters choose coarse ones where they
 // can.
@@ -71,37 +66,6 @@ double PositionCoder::bend(const std::vector<GridPoint>& positions, const Gate& 
     return 0.5 * gate.bend + 0.5 * rise / lever;
 }
 
-std::int32_t PositionCoder::code_residual(std::int32_t value, const Hint& hint) {
-    const auto where = [&](std::uint32_t part, std::uint32_t set) {
-        return ContextMixer::Where{hint.kind + part, set, hint.scale};
-    };
-    const std::uint32_t joint = hint.scale * 64 + hint.recent;
-    const std::uint32_t extra = hint.extra;
-    const std::array<std::uint32_t, 4> zero{hint.scale, hint.recent, joint, extra};
-    if (mixer_.code(coder_, value != 0 ? 1 : 0, where(kZero, 0), zero) == 0) return 0;
-    const std::array<std::uint32_t, 2> sign{0, extra};
-    const bool negative = mixer_.code(coder_, value < 0 ? 1 : 0, where(kSign, 0), sign) != 0;
-
-    const auto magnitude = static_cast<std::uint32_t>(std::abs(value));
-    std::uint32_t e = 0;
-    for (; e < 29; ++e) {
-        const std::uint32_t more = magnitude >> (e + 1) != 0 ? 1 : 0;
-        const std::array<std::uint32_t, 5> contexts{e, e * 64 + hint.scale, e * 64 + hint.recent,
-                                                    e * 4096 + joint, e * 64 + extra};
-        if (mixer_.code(coder_, static_cast<int>(more), where(kExponent, e), contexts) == 0) break;
-    }
-    std::uint32_t result = 1;
-    for (std::uint32_t i = e; i-- > 0;) {
-        const int in = static_cast<int>((magnitude >> i) & 1U);
-        const std::uint32_t low = std::min(i, 3U);
-        const std::uint32_t high = e - i <= 2 ? e * 4 + (result & 3U) : 128;
-        const std::array<std::uint32_t, 3> contexts{low, high, 256 + high * 4 + low};
-        result = (result << 1) |
-                 static_cast<std::uint32_t>(mixer_.code(coder_, in, where(kMantissa, low), contexts));
-    }
-    return negative ? -static_cast<std::int32_t>(result) : static_cast<std::int32_t>(result);
-}
-
 int PositionCoder::code_level(int level, const std::array<int, 3>& around) {
     for (int i = 0; i < kLevels; ++i) {
         const auto coarser = std::count_if(around.begin(), around.end(), [&](int l) { return l > i; });
@@ -115,7 +79,7 @@ int PositionCoder::code_level(int level, const std::array<int, 3>& around) {
 
 bool PositionCoder::code_free(const GridPoint& before, GridPoint& p) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        p[axis] = before[axis] + code_residual(p[axis] - before[axis], {kFree, 0, 0, 0});
+        p[axis] = before[axis] + code_residual(coder_, mixer_, p[axis] - before[axis], {kFree, 0, 0, 0});
         if (std::abs(p[axis]) >= kMaxCoordinate) return false;
     }
     magnitudes_.emplace_back();
@@ -147,7 +111,7 @@ bool PositionCoder::code(const std::vector<GridPoint>& positions, const Gate& ga
     for (const std::size_t axis : {u, v}) {
         const std::int32_t predicted = (a[axis] + b[axis] - d[axis] + pitch / 2) >> level;
         const std::uint32_t extra = axis == u ? 0 : 1 + std::min(half_octaves(across) / 2, 30U);
-        const std::int32_t r = code_residual((p[axis] >> level) - predicted,
+        const std::int32_t r = code_residual(coder_, mixer_, (p[axis] >> level) - predicted,
                                              {kAcross, in_pitches(scale), in_pitches(tangential), extra});
         const std::int64_t place = (std::int64_t{predicted} + r) * pitch;
         if (std::abs(place) >= kMaxCoordinate) return false;
@@ -172,7 +136,7 @@ bool PositionCoder::code(const std::vector<GridPoint>& positions, const Gate& ga
         std::clamp(height + gain * bent / slope, -1.0 * kMaxCoordinate, 1.0 * kMaxCoordinate);
     const auto base = static_cast<std::int32_t>(std::floor(predicted + 0.5));
     const std::uint32_t extra = half_octaves(std::abs(across));
-    p[w] = base + code_residual(p[w] - base, {kSteep, scale, normal, std::min(extra, 63U)});
+    p[w] = base + code_residual(coder_, mixer_, p[w] - base, {kSteep, scale, normal, std::min(extra, 63U)});
     if (std::abs(p[w]) >= kMaxCoordinate) return false;
 
     const double risen = (p[w] - height) * slope;

@@ -32,11 +32,7 @@ class PositionCoder {
     static double bend(const std::vector<GridPoint>& positions, const Gate& gate, const GridPoint& p);
 
   private:
-    struct Hint {
-        std::uint32_t kind, scale, recent, extra;
-    };
     int code_level(int level, const std::array<int, 3>& around);
-    std::int32_t code_residual(std::int32_t value, const Hint& hint);
 
     /// Magnitudes of the residuals of each vertex: tangential and normal, in log2_sixteenths / 8.
     struct Magnitude {

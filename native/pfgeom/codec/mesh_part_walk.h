@@ -29,6 +29,8 @@ class MeshPartWalk {
     /// What was coded, in the order of the walk.
     const std::vector<GridPoint>& positions() const { return front_.positions(); }
     std::vector<Triangle>& faces() { return faces_; }
+    /// Encoder: of each vertex of the walk, its row in the written part.
+    const std::vector<std::int32_t>& written_rows() const { return written_rows_; }
 
   private:
     /// A vertex of a face to come: in the written part (encoder only), and in the walk (-1: not yet).

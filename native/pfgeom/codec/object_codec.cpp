@@ -11,6 +11,7 @@ namespace pfgeom {
 namespace {
 
 constexpr std::uint32_t kSolid = 0, kSheet = 1, kMeshPart = 2, kSetTree = 3;  // order of Object::shape
+constexpr std::uint32_t kCurvedPart = 4;                                      // a mesh part with bulges
 
 // Contexts of code_wide and code_numbers.
 constexpr std::uint32_t kFirstOffset = 256, kLaterOffset = 257;
@@ -72,12 +73,14 @@ void ObjectCoder::code_frame(Frame& frame) {
 }
 
 void ObjectCoder::code_shape(Object& object) {
-    const auto in = static_cast<std::uint32_t>(object.shape.index());
+    const auto* given = std::get_if<MeshPart>(&object.shape);
+    const std::uint32_t in =
+        given && given->curved() ? kCurvedPart : static_cast<std::uint32_t>(object.shape.index());
     const std::uint32_t shape = stream_.mixer.code_uint(stream_.coder, in, kShapeKind);
     if (stream_.decoding()) {
         if (shape == kSheet)
             object.shape = Sheet{};
-        else if (shape == kMeshPart)
+        else if (shape == kMeshPart || shape == kCurvedPart)
             object.shape = MeshPart{};
         else if (shape == kSetTree)
             object.shape = SetTree{};
@@ -86,7 +89,7 @@ void ObjectCoder::code_shape(Object& object) {
     }
     if (!stream_.ok()) return;
     if (auto* solid = std::get_if<Solid>(&object.shape)) code_solid(*solid);
-    if (auto* part = std::get_if<MeshPart>(&object.shape)) code_mesh(*part);
+    if (auto* part = std::get_if<MeshPart>(&object.shape)) code_mesh(*part, shape == kCurvedPart);
     if (auto* tree = std::get_if<SetTree>(&object.shape)) code_set_tree(stream_, tree_model_, *tree);
     if (auto* sheet = std::get_if<Sheet>(&object.shape)) {
         code_function_index(sheet->surface);
@@ -132,11 +135,12 @@ void ObjectCoder::code_function_index(std::int32_t& function) {
     next_function_ = std::max(next_function_, function + 1);
 }
 
-void ObjectCoder::code_mesh(MeshPart& part) {
+void ObjectCoder::code_mesh(MeshPart& part, bool curved) {
     const std::size_t budget = stream_.memory / CodecStream::kMemoryPerByte;
-    const FormatStatus status = code_mesh_part(stream_.coder, stream_.mixer, part, budget);
+    const FormatStatus status = code_mesh_part(stream_.coder, stream_.mixer, part, curved, budget);
     if (status != FormatStatus::ok) return stream_.fail(status);
     stream_.charge(part.positions.size() + part.faces.size(), sizeof(Triangle));
+    stream_.charge(part.bulges.size(), sizeof(Bulge));
 }
 
 void ObjectCoder::code_nesting(std::int32_t& cavity_of) {

@@ -57,11 +57,12 @@ struct MeshOptions {
 /// The default mesh (neither option set) is the one that the promise is about.
 TriangleMesh to_mesh(const Model& model, const MeshOptions& options = {}, const Task& task = {});
 
-/// The headline figure: surface functions + separators and trims + perturbations, and triangles of mesh
-/// parts. Every distinct quadric of a tree counts as a surface function, those that only separate included:
-/// which are which is a question about space, not about the tree.
+/// The headline figure: surface functions + separators and trims + perturbations, and apart from
+/// them the flat and the curved faces of mesh parts. Every distinct quadric of a tree counts as a surface
+/// function, those that only separate included: which are which is a question about space, not about the
+/// tree.
 struct FunctionCount {
-    std::int64_t surface = 0, separators = 0, perturbations = 0, mesh_part_faces = 0;
+    std::int64_t surface = 0, separators = 0, perturbations = 0, mesh_part_faces = 0, patches = 0;
 };
 FunctionCount count_functions(const Model& model);
 

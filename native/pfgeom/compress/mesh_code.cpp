@@ -2,10 +2,6 @@
 
 namespace pfgeom {
 
-double chord_of(const Model& model, const Object& object) {
-    return model.diagonal * exp2_eighths(-2 * int{object.mesh_code});
-}
-
 std::uint8_t mesh_code_for(const Goal& goal, double chord) {
     int code = 0;
     while (code < 255 && goal.diagonal * exp2_eighths(-2 * code) > chord) ++code;

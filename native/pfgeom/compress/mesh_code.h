@@ -5,9 +5,7 @@
 
 namespace pfgeom {
 
-/// The default mesh's chord tolerance in the world's units, and the code that stores one no larger than
-/// `chord`.
-double chord_of(const Model& model, const Object& object);
+/// The code that stores a chord tolerance no larger than `chord`.
 std::uint8_t mesh_code_for(const Goal& goal, double chord);
 
 /// The solid of function 0, or its complement.

@@ -35,19 +35,28 @@ int depth_for(double half, double size) {
     return depth;
 }
 
+double largest_half(const Model& model) {
+    double largest = 0;
+    for (const Object& o : model.objects) largest = std::max(largest, o.frame.half());
+    return largest;
+}
+
 PolygonizeOptions polygonize_options(const Model& model, const Object& object, const MeshOptions& options) {
     PolygonizeOptions result;
     result.min_depth = kLeastDepth;
     result.max_depth = kMostDepth;
     const double half = object.frame.half();
     if (options.resolution) {
-        double largest = 0;
-        for (const Object& o : model.objects) largest = std::max(largest, o.frame.half());
-        result.min_depth = result.max_depth = depth_for(half, 2 * largest / *options.resolution);
+        result.min_depth = result.max_depth = depth_for(half, 2 * largest_half(model) / *options.resolution);
     } else {
         result.tolerance = options.tolerance.value_or(chord_of(model, object)) / half;
     }
     return result;
+}
+
+Fineness fineness_of(const Model& model, const Object& object, const MeshOptions& options) {
+    if (!options.resolution) return {.chord = options.tolerance.value_or(chord_of(model, object))};
+    return {.chord = chord_of(model, object), .length = 2 * largest_half(model) / *options.resolution};
 }
 
 void turn_faces(TriangleMesh& mesh) {
@@ -57,7 +66,8 @@ void turn_faces(TriangleMesh& mesh) {
 // A complement fills the cube; its surface is that of its operand, with the faces turned.
 TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
                            const Task& task) {
-    if (std::holds_alternative<MeshPart>(object.shape)) return mesh_of(object);
+    if (std::holds_alternative<MeshPart>(object.shape))
+        return mesh_of(object, fineness_of(model, object, options));
     const PolygonizeOptions how = polygonize_options(model, object, options);
     TriangleMesh mesh;
     bool complement = false;
@@ -116,7 +126,8 @@ FunctionCount count_functions(const Model& model) {
     std::vector<std::uint8_t> surface(model.functions.size()), used(model.functions.size());
     for (const Object& object : model.objects) {
         if (const auto* part = std::get_if<MeshPart>(&object.shape)) {
-            count.mesh_part_faces += static_cast<std::int64_t>(part->faces.size());
+            (part->curved() ? count.patches : count.mesh_part_faces) +=
+                static_cast<std::int64_t>(part->faces.size());
         } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
             surface[static_cast<std::size_t>(sheet->surface)] = used[static_cast<std::size_t>(sheet->trim)] =
                 1;

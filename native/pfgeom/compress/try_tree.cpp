@@ -182,8 +182,8 @@ class TreeSearch {
     }
 
     // An island is one piece, and so must its mesh be. Within the tube a tree may leave bits of surface by
-    // themselves: they break no promise, but nobody wants them (a pebble's tree left one of two tolerances, a
-    // printed part's several). The leaves that they are in are mended like others that are wrong.
+    // themselves: they break no promise, but nobody wants them (a pebble's tree left one of two
+    // tolerances). The leaves that they are in are mended like others that are wrong.
     Outcome prove_tree(Candidate& found, double chord, double tolerance) const {
         for (int i = 0;; ++i) {
             Outcome outcome = prove_once(found, chord);

@@ -2,8 +2,9 @@
 
 namespace pfgeom {
 
-TriangleMesh mesh_of(const Object& object) {
+TriangleMesh mesh_of(const Object& object, const Fineness& fineness) {
     const auto& part = std::get<MeshPart>(object.shape);
+    if (part.curved()) return divide_patches(object, fineness);
     TriangleMesh mesh;
     mesh.faces = part.faces;
     mesh.vertices.reserve(part.positions.size());

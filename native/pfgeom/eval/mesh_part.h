@@ -1,12 +1,13 @@
 // A mesh part's triangles in the world.
 #pragma once
 
+#include "pfgeom/eval/patches.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
 namespace pfgeom {
 
-/// `object.shape` must be a MeshPart. Vertex = frame.to_world(position · step).
-TriangleMesh mesh_of(const Object& object);
+/// `object.shape` must be a MeshPart. Vertex = frame.to_world(position · step); curved faces are divided.
+TriangleMesh mesh_of(const Object& object, const Fineness& fineness);
 
 }  // namespace pfgeom

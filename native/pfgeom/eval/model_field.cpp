@@ -22,6 +22,9 @@ Solid without_outer_complement(const Solid& solid) {
     return inner;
 }
 
+// Curved faces are divided until they are this share of the default mesh's chord tolerance from the surface.
+constexpr double kChordShare = 0.25;
+
 }  // namespace
 
 // One object with its copies; value and gradient are in the world's units.
@@ -43,7 +46,7 @@ struct ModelField::Part {
             solid = std::make_unique<TreeField>(*tree);
             box = {frame.to_world(tree->box().lo), frame.to_world(tree->box().hi)};
         } else if (std::holds_alternative<MeshPart>(object.shape)) {
-            bvh.emplace(mesh_of(object));
+            bvh.emplace(mesh_of(object, {.chord = kChordShare * chord_of(model, object)}));
             box = bvh->bounds();
         }
     }

@@ -48,10 +48,11 @@ class Collapser {
     };
     void propose(std::int32_t u, std::int32_t v);
     Proposal measure(std::int32_t u, std::int32_t v);
-    Proposal measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double most);
+    double cost_of(const Patch& patch, double most) const;
+    void improve(Patch& patch) const;
     void take(const Entry& e);
-    void apply(std::int32_t u, std::int32_t v, const Vec3& place);
-    void replace(std::int32_t u, std::int32_t v, const Vec3& place);
+    void apply(std::int32_t u, std::int32_t v);
+    void replace(std::int32_t u, std::int32_t v, const Patch& patch);
     double limit() const;
     double length_cost(std::int32_t u, std::int32_t v) const;
     bool on_border(std::int32_t v) const { return !mesh_.neighbours(v, false).empty(); }
@@ -64,7 +65,7 @@ class Collapser {
     std::vector<std::uint32_t> moved_, changed_;  // clock of the last change of a vertex, and of its faces
     std::priority_queue<Entry> queue_;
     std::uint32_t clock_ = 0;
-    Patch patch_;
+    Patch patch_, improved_;
 };
 
 // What a single collapse may cost.
@@ -86,43 +87,57 @@ void Collapser::propose(std::int32_t u, std::int32_t v) {
     const double rest = q(place), rms = std::sqrt(rest / std::max(q.weight, 1e-300));
     // Both in the unit of forward(): the quadrics' weights are doubled areas, counted at three corners.
     const double estimate = limits_.metric == Metric::max ? rms : rest / 6;
-    const bool harmless = rms <= kHarmless * limits_.forward && !on_border(u) && !on_border(v);
+    const bool harmless =
+        rms <= kHarmless * limits_.forward && !error_.quantised() && !on_border(u) && !on_border(v);
     queue_.push({estimate + length_cost(u, v), u, v, clock_, false, harmless, place});
 }
 
-Collapser::Proposal Collapser::measure_at(std::int32_t u, std::int32_t v, const Vec3& p, double most) {
-    mesh_.patch_of_collapse(u, v, p, patch_);
-    if (!mesh_.keeps_orientation(patch_)) return {p, kInfinity};
-    return {p, error_.forward(patch_, most)};
+double Collapser::cost_of(const Patch& patch, double most) const {
+    return mesh_.keeps_orientation(patch) ? error_.forward(patch, most) : kInfinity;
 }
 
+void Collapser::improve(Patch& patch) const {
+    if (patch.curved())
+        error_.refit(patch, true);
+    else
+        patch.move_to(error_.fitted(patch));
+}
+
+// Leaves in patch_ what it found.
 Collapser::Proposal Collapser::measure(std::int32_t u, std::int32_t v) {
     PlaneQuadric q = quadrics_[static_cast<std::size_t>(u)];
     q += quadrics_[static_cast<std::size_t>(v)];
     const double most = limit();
-    Proposal best = measure_at(u, v, q.least((mesh_.point(u) + mesh_.point(v)) * 0.5), kMayBeSaved * most);
-    if (best.cost > kWorthFitting * most && best.cost < kInfinity) {
-        const Proposal fitted = measure_at(u, v, error_.fitted(patch_), std::min(best.cost, most));
-        if (fitted.cost < best.cost) best = fitted;
+    const Vec3 place = error_.placed(q.least((mesh_.point(u) + mesh_.point(v)) * 0.5));
+    mesh_.patch_of_collapse(u, v, place, patch_);
+    if (patch_.curved()) error_.bend(patch_);
+    double cost = cost_of(patch_, kMayBeSaved * most);
+    if (cost > kWorthFitting * most && cost < kInfinity) {
+        improved_ = patch_;
+        improve(improved_);
+        const double better = cost_of(improved_, std::min(cost, most));
+        if (better < cost) {
+            cost = better;
+            std::swap(patch_, improved_);
+        }
     }
-    if (best.cost > most) best.cost = kInfinity;
-    return best;
+    return {patch_.triangles[0][0], cost > most ? kInfinity : cost};
 }
 
 // Without a look at distances.
 void Collapser::take(const Entry& e) {
     mesh_.patch_of_collapse(e.u, e.v, e.place, patch_);
-    if (mesh_.keeps_orientation(patch_)) replace(e.u, e.v, e.place);
+    if (mesh_.keeps_orientation(patch_)) replace(e.u, e.v, patch_);
 }
 
-void Collapser::apply(std::int32_t u, std::int32_t v, const Vec3& place) {
-    mesh_.patch_of_collapse(u, v, place, patch_);
-    if (error_.backward(patch_, limits_.backward) < kInfinity) replace(u, v, place);
+// What measure() left in patch_.
+void Collapser::apply(std::int32_t u, std::int32_t v) {
+    if (error_.backward(patch_, limits_.backward) < kInfinity) replace(u, v, patch_);
 }
 
-void Collapser::replace(std::int32_t u, std::int32_t v, const Vec3& place) {
-    error_.commit(patch_);
-    mesh_.collapse(u, v, place);
+void Collapser::replace(std::int32_t u, std::int32_t v, const Patch& patch) {
+    error_.commit(patch);
+    mesh_.collapse(u, v, patch);
     quadrics_[static_cast<std::size_t>(v)] += quadrics_[static_cast<std::size_t>(u)];
     moved_[static_cast<std::size_t>(v)] = changed_[static_cast<std::size_t>(v)] = ++clock_;
     moved_[static_cast<std::size_t>(u)] = clock_;
@@ -142,7 +157,11 @@ void Collapser::run() {
         if (top.clock < std::max(moved_[u], moved_[v])) continue;  // gone, or proposed anew
         if (!mesh_.may_collapse(top.u, top.v)) continue;
         if (top.measured && top.clock >= std::max(changed_[u], changed_[v])) {
-            apply(top.u, top.v, top.place);
+            if (patch_.curved())
+                measure(top.u, top.v);
+            else
+                mesh_.patch_of_collapse(top.u, top.v, top.place, patch_);
+            apply(top.u, top.v);
             continue;
         }
         if (top.harmless && !top.measured) {
@@ -155,7 +174,7 @@ void Collapser::run() {
         if (key > top.key && !queue_.empty() && key > queue_.top().key) {
             queue_.push({key, top.u, top.v, clock_, true, false, found.place});
         } else {
-            apply(top.u, top.v, found.place);
+            apply(top.u, top.v);
         }
     }
 }
@@ -176,12 +195,14 @@ void relax_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimi
         task.check();
         mesh.patch_of_move(v, mesh.point(v), patch);
         const double before = error.forward(patch, kInfinity);
-        const Vec3 place = error.fitted(patch);
-        patch.move_to(place);
+        if (patch.curved())
+            error.refit(patch, true);
+        else
+            patch.move_to(error.fitted(patch));
         if (!mesh.keeps_orientation(patch) || !(error.forward(patch, before) < before)) continue;
         if (error.backward(patch, limits.backward) == kInfinity) continue;
         error.commit(patch);
-        mesh.move(v, place);
+        mesh.move(v, patch);
     }
 }
 

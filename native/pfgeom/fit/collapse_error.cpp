@@ -1,5 +1,6 @@
 #include "pfgeom/fit/collapse_error.h"
 
+#include "pfgeom/fit/nearest_face.h"
 #include "pfgeom/fit/symmetric3.h"
 
 #include <algorithm>
@@ -23,37 +24,11 @@ double longest(const std::array<Vec3, 3>& t) {
         std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])}));
 }
 
-struct Nearest {
-    std::size_t triangle = 0;
-    Vec3 point;
-    double squared = kInfinity;
-};
-
-// `good_enough`: the search ends with the first triangle that is as close; it begins with the likeliest.
-Nearest nearest(const Vec3& p, const Patch& patch, std::size_t likely, double good_enough) {
-    Nearest best;
-    const std::size_t n = patch.triangles.size();
-    for (std::size_t i = 0, k = likely < n ? likely : 0; i < n && best.squared > good_enough; ++i) {
-        const auto& t = patch.triangles[k];
-        const Vec3 q = closest_point_on_triangle(p, t[0], t[1], t[2]);
-        const double squared = squared_norm(p - q);
-        if (squared < best.squared) best = {k, q, squared};
-        if (++k == n) k = 0;
-    }
-    return best;
-}
-
 // Barycentric weight of corner 0 at a point q of the triangle.
 double weight_of_corner(const std::array<Vec3, 3>& t, const Vec3& q) {
     const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
     const double area = squared_norm(normal);
     return area > 0 ? std::clamp(dot(cross(t[1] - q, t[2] - q), normal) / area, 0.0, 1.0) : 0;
-}
-
-// Row of face f in patch.after, where its samples most likely go.
-std::size_t row_of(const Patch& patch, std::int32_t f) {
-    return static_cast<std::size_t>(std::find(patch.after.begin(), patch.after.end(), f) -
-                                    patch.after.begin());
 }
 
 }  // namespace
@@ -114,13 +89,14 @@ double CollapseError::forward(const Patch& patch, double limit) const {
     const bool by_max = metric_ == Metric::max;
     const double cap = by_max ? limit * limit : kInfinity;
     double cost = 0;
+    const NearestFace nearest(patch);
     for (const std::int32_t f : patch.before) {
-        std::size_t likely = row_of(patch, f);
+        std::size_t likely = nearest.row_of(f);
         for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
              s = samples_[static_cast<std::size_t>(s)].next) {
             const Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const Nearest found = nearest(sample.p, patch, likely, by_max ? cost : -1);
-            likely = found.triangle;
+            const NearestFace::Found found = nearest(sample.p, likely, by_max ? cost : -1);
+            likely = found.row;
             if (found.squared > cap) return kInfinity;
             if (by_max)
                 cost = std::max(cost, found.squared);
@@ -146,7 +122,9 @@ double CollapseError::rims(const Patch& patch, double limit) const {
             const int n = static_cast<int>(std::min(close, rim ? 100.0 : 40.0));
             std::int32_t hint = -1;
             for (int i = 0; i < n; ++i) {
-                const Vec3 at = p + (q - p) * (static_cast<double>(i) / n);
+                const double along = static_cast<double>(i) / n;
+                Vec3 at = p + (q - p) * along;
+                if (patch.curved()) at += patch.bulges[row][k == 1 ? 0 : 2] * (4 * along * (1 - along));
                 const ClosestPoint found = bvh_.closest(at, limit, hint);
                 if (found.face < 0) return kInfinity;
                 worst = std::max(worst, found.squared_distance);
@@ -158,22 +136,25 @@ double CollapseError::rims(const Patch& patch, double limit) const {
 }
 
 // Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface
-// they change far more slowly, as slope_ has it.
-double CollapseError::farthest(const std::array<Vec3, 3>& triangle, double limit, std::int32_t hint) const {
-    const double finest = std::max(finest_ * tolerance_, longest(triangle) / parts_);
+// they change far more slowly, as slope_ has it. `surface` makes points of parameters.
+template <class Surface>
+double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double longest,
+                               double limit, std::int32_t hint) const {
+    const double finest = std::max(finest_ * tolerance_, longest / parts_);
     double worst = 0;
-    std::vector<std::array<Vec3, 3>> parts_left{triangle};
+    std::vector<std::array<Vec3, 3>> parts_left{corners};
     while (!parts_left.empty()) {
         const auto [a, b, c] = parts_left.back();
         parts_left.pop_back();
-        const Vec3 middle = (a + b + c) / 3;
+        const Vec3 middle = surface((a + b + c) / 3);
         const ClosestPoint found = bvh_.closest(middle, limit, hint);
         if (found.face < 0) return kInfinity;
         hint = found.face;
         const double distance = std::sqrt(found.squared_distance);
         worst = std::max(worst, distance);
-        const double reach = std::sqrt(
-            std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
+        const double reach =
+            std::sqrt(std::max({squared_norm(surface(a) - middle), squared_norm(surface(b) - middle),
+                                squared_norm(surface(c) - middle)}));
         if (reach < finest || distance + slope_ * reach <= std::max(worst, kHarmless * tolerance_)) continue;
         const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
         parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
@@ -186,7 +167,16 @@ double CollapseError::backward(const Patch& patch, double limit) const {
     for (std::size_t row = 0; row < patch.triangles.size() && worst <= limit; ++row) {
         const std::int32_t s = first_[static_cast<std::size_t>(patch.after[row])];
         const std::int32_t hint = s >= 0 ? samples_[static_cast<std::size_t>(s)].origin : -1;
-        worst = std::max(worst, farthest(patch.triangles[row], limit, hint));
+        const std::array<Vec3, 3>& t = patch.triangles[row];
+        if (patch.curved()) {
+            const CurvedTriangle curved = patch.surface(row);
+            const auto at = [&curved](const Vec3& weights) { return curved.at(weights); };
+            worst =
+                std::max(worst, farthest({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, at, longest(t), limit, hint));
+        } else {
+            const auto itself = [](const Vec3& p) { return p; };
+            worst = std::max(worst, farthest(t, itself, longest(t), limit, hint));
+        }
     }
     return worst <= limit ? worst : kInfinity;
 }
@@ -197,14 +187,15 @@ Vec3 CollapseError::fitted(const Patch& patch) const {
     Symmetric3 system;
     Vec3 right;
     double trace = 0;
+    const NearestFace nearest(patch);
     for (const std::int32_t f : patch.before) {
-        std::size_t likely = row_of(patch, f);
+        std::size_t likely = nearest.row_of(f);
         for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
              s = samples_[static_cast<std::size_t>(s)].next) {
             const Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const Nearest found = nearest(sample.p, patch, likely, -1);
-            likely = found.triangle;
-            const auto& t = patch.triangles[found.triangle];
+            const NearestFace::Found found = nearest(sample.p, likely, -1);
+            likely = found.row;
+            const auto& t = patch.triangles[found.row];
             const double lambda = weight_of_corner(t, found.point), d = std::sqrt(found.squared);
             const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
             const Vec3 direction = d > 1e-9 * spacing_ ? (sample.p - found.point) / d : normal;
@@ -221,13 +212,14 @@ Vec3 CollapseError::fitted(const Patch& patch) const {
 void CollapseError::commit(const Patch& patch) {
     std::vector<std::int32_t> moved;
     std::vector<std::size_t> rows;
+    const NearestFace nearest(patch);
     for (const std::int32_t f : patch.before) {
-        std::size_t likely = row_of(patch, f);
+        std::size_t likely = nearest.row_of(f);
         std::int32_t& first = first_[static_cast<std::size_t>(f)];
         for (std::int32_t s = first; s >= 0; s = samples_[static_cast<std::size_t>(s)].next) {
             Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const Nearest found = nearest(sample.p, patch, likely, -1);
-            likely = found.triangle;
+            const NearestFace::Found found = nearest(sample.p, likely, -1);
+            likely = found.row;
             sum_ += sample.weight * (found.squared - sample.squared);
             sample.squared = found.squared;
             moved.push_back(s);

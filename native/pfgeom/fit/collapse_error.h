@@ -7,14 +7,18 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/fit/collapse_mesh.h"
+#include "pfgeom/fit/integer_grid.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/bvh.h"
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace pfgeom {
+
+struct Spoke;
 
 class CollapseError {
   public:
@@ -30,6 +34,17 @@ class CollapseError {
     double backward(const Patch& patch, double limit) const;
     /// A better place for the moving vertex: one step of least squares from its place now.
     Vec3 fitted(const Patch& patch) const;
+    /// Of a curved patch: takes the bulges at the moving vertex from the original surface.
+    void bend(Patch& patch) const;
+    /// Of a curved patch: one step of least squares of these bulges, and of the vertex if it is `free`.
+    void refit(Patch& patch, bool free) const;
+    /// From now on bend() and refit() give places on the grid and bulges of whole steps.
+    void quantise(const Grid& grid, double bulge_step) {
+        grid_ = grid;
+        bulge_step_ = bulge_step;
+    }
+    bool quantised() const { return grid_.has_value(); }
+    Vec3 placed(const Vec3& p) const { return grid_ ? grid_->point(grid_->nearest(p)) : p; }
     /// From now on backward() looks closely, at several times the cost.
     void measure_finely() {
         slope_ = 0.5;
@@ -51,12 +66,18 @@ class CollapseError {
         std::int32_t next = -1;  // of the same face
         std::int32_t origin;     // face of the original
     };
-    double farthest(const std::array<Vec3, 3>& triangle, double limit, std::int32_t hint) const;
+    template <class Surface>
+    double farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double longest, double limit,
+                    std::int32_t hint) const;
     double rims(const Patch& patch, double limit) const;
     void add(const Vec3& p, double weight, std::int32_t face);
     void sample_edges(const TriangleMesh& mesh, double spacing);
     void sample_faces(const TriangleMesh& mesh, double spacing);
 
+    Vec3 whole_steps(const Vec3& bulge, const Spoke& spoke) const;
+
+    std::optional<Grid> grid_;
+    double bulge_step_ = 0;
     Metric metric_;
     double tolerance_, spacing_;
     // How fast distances are taken to change over a new triangle (1 is safe), the smallest part of it that is

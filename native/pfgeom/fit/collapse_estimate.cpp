@@ -58,7 +58,7 @@ class QuickCollapser {
         if (!mesh_.may_collapse(e.u, e.v)) return;
         mesh_.patch_of_collapse(e.u, e.v, e.place, patch_);
         if (!mesh_.keeps_orientation(patch_)) return;
-        mesh_.collapse(e.u, e.v, e.place);
+        mesh_.collapse(e.u, e.v, patch_);
         --left_;
         quadrics_[index(e.v)] += quadrics_[index(e.u)];
         moved_[index(e.u)] = moved_[index(e.v)] = ++clock_;

@@ -9,11 +9,17 @@ bool has(const Triangle& t, std::int32_t v) {
     return t[0] == v || t[1] == v || t[2] == v;
 }
 
-// The corners of t from v on, in their cyclic order.
+std::size_t corner_of(const Triangle& t, std::int32_t v) {
+    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
+}
+
+// Corners or edges from k on, in their cyclic order.
+template <class T>
+std::array<T, 3> turned(const std::array<T, 3>& t, std::size_t k) {
+    return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
+}
 std::array<std::int32_t, 3> from_corner(const Triangle& t, std::int32_t v) {
-    if (t[0] == v) return t;
-    if (t[1] == v) return {t[1], t[2], t[0]};
-    return {t[2], t[0], t[1]};
+    return turned(t, corner_of(t, v));
 }
 
 Vec3 doubled_area(const std::array<Vec3, 3>& t) {
@@ -30,8 +36,12 @@ constexpr double kLeastCosine = 0.2, kFlattest = 0.02;
 
 }  // namespace
 
-CollapseMesh::CollapseMesh(const TriangleMesh& mesh)
-    : points_(mesh.vertices), faces_(mesh.faces), at_(mesh.vertices.size()), alive_(mesh.faces.size()) {
+CollapseMesh::CollapseMesh(const TriangleMesh& mesh, bool curved)
+    : points_(mesh.vertices),
+      faces_(mesh.faces),
+      bulges_(curved ? mesh.faces.size() : 0),
+      at_(mesh.vertices.size()),
+      alive_(mesh.faces.size()) {
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         for (const std::int32_t v : faces_[f])
             at_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(f));
@@ -92,9 +102,14 @@ bool CollapseMesh::may_collapse(std::int32_t u, std::int32_t v) const {
 void CollapseMesh::patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) const {
     patch.before = patch.after = faces_at(v);
     patch.triangles.clear();
+    patch.bulges.clear();
+    patch.ends.clear();
     for (const std::int32_t f : patch.after) {
         const auto t = from_corner(face(f), v);
         patch.triangles.push_back({p, point(t[1]), point(t[2])});
+        if (bulges_.empty()) continue;
+        patch.bulges.push_back(turned(bulges_[static_cast<std::size_t>(f)], corner_of(face(f), v)));
+        patch.ends.push_back({t[1], t[2]});
     }
 }
 
@@ -102,6 +117,8 @@ void CollapseMesh::patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3&
     patch.before.clear();
     patch.after.clear();
     patch.triangles.clear();
+    patch.bulges.clear();
+    patch.ends.clear();
     for (const std::int32_t end : {v, u}) {
         for (const std::int32_t f : faces_at(end)) {
             const bool shared = has(face(f), u) && has(face(f), v);
@@ -110,6 +127,9 @@ void CollapseMesh::patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3&
             const auto t = from_corner(face(f), end);
             patch.after.push_back(f);
             patch.triangles.push_back({p, point(t[1]), point(t[2])});
+            if (bulges_.empty()) continue;
+            patch.bulges.push_back({Vec3{}, bulge(f, (corner_of(face(f), end) + 1) % 3), Vec3{}});
+            patch.ends.push_back({t[1], t[2]});
         }
     }
 }
@@ -126,7 +146,16 @@ bool CollapseMesh::keeps_orientation(const Patch& patch) const {
     return true;
 }
 
-void CollapseMesh::collapse(std::int32_t u, std::int32_t v, const Vec3& p) {
+void CollapseMesh::move(std::int32_t v, const Patch& patch) {
+    points_[static_cast<std::size_t>(v)] = patch.triangles[0][0];
+    for (std::size_t row = 0; row < patch.bulges.size(); ++row) {
+        const std::int32_t f = patch.after[row];
+        const std::size_t k = corner_of(face(f), v);
+        for (std::size_t i = 0; i < 3; ++i) set_bulge(f, (k + i) % 3, patch.bulges[row][i]);
+    }
+}
+
+void CollapseMesh::collapse(std::int32_t u, std::int32_t v, const Patch& patch) {
     std::vector<std::int32_t> moved = std::move(at_[static_cast<std::size_t>(u)]);
     at_[static_cast<std::size_t>(u)].clear();
     for (const std::int32_t f : moved) {
@@ -140,24 +169,32 @@ void CollapseMesh::collapse(std::int32_t u, std::int32_t v, const Vec3& p) {
             at_[static_cast<std::size_t>(v)].push_back(f);
         }
     }
-    move(v, p);
+    move(v, patch);
+}
+
+std::vector<std::int32_t> CollapseMesh::faces_left() const {
+    std::vector<std::int32_t> left;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        if (faces_[f][0] >= 0) left.push_back(static_cast<std::int32_t>(f));
+    }
+    return left;
 }
 
 TriangleMesh CollapseMesh::result() const {
     TriangleMesh mesh;
     std::vector<std::int32_t> row(points_.size(), -1);
-    for (const Triangle& t : faces_) {
-        if (t[0] < 0) continue;
-        Triangle face;
+    for (const std::int32_t f : faces_left()) {
+        const Triangle& t = face(f);
+        Triangle rows;
         for (std::size_t k = 0; k < 3; ++k) {
             std::int32_t& r = row[static_cast<std::size_t>(t[k])];
             if (r < 0) {
                 r = static_cast<std::int32_t>(mesh.vertices.size());
                 mesh.vertices.push_back(point(t[k]));
             }
-            face[k] = r;
+            rows[k] = r;
         }
-        mesh.faces.push_back(face);
+        mesh.faces.push_back(rows);
     }
     return mesh;
 }

@@ -1,8 +1,9 @@
 // A triangle soup that edge collapses thin out: corners of faces, and the faces at each vertex. No
 // half-edges, so that edges with any number of faces and vertices with any number of fans are nothing
-// special.
+// special. Its faces are flat, or curved with a bulge on each edge.
 #pragma once
 
+#include "pfgeom/function/curved_triangle.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
 #include <array>
@@ -13,17 +14,21 @@ namespace pfgeom {
 
 /// What an operation would do: the faces around one vertex at its new place, instead of the faces before.
 struct Patch {
-    std::vector<std::int32_t> before;            ///< faces whose surface is replaced
-    std::vector<std::int32_t> after;             ///< those of them that stay
-    std::vector<std::array<Vec3, 3>> triangles;  ///< of each of `after`; corner 0 is the moving vertex
+    std::vector<std::int32_t> before;               ///< faces whose surface is replaced
+    std::vector<std::int32_t> after;                ///< those of them that stay
+    std::vector<std::array<Vec3, 3>> triangles;     ///< of each of `after`; corner 0 is the moving vertex
+    std::vector<std::array<Vec3, 3>> bulges;        ///< of their edges 0-1, 1-2, 2-0; empty: they are flat
+    std::vector<std::array<std::int32_t, 2>> ends;  ///< curved: their corners 1 and 2
     void move_to(const Vec3& p) {
         for (auto& t : triangles) t[0] = p;
     }
+    bool curved() const { return !bulges.empty(); }
+    CurvedTriangle surface(std::size_t row) const { return {triangles[row], bulges[row]}; }
 };
 
 class CollapseMesh {
   public:
-    explicit CollapseMesh(const TriangleMesh& mesh);
+    explicit CollapseMesh(const TriangleMesh& mesh, bool curved = false);
 
     const Vec3& point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
     const Triangle& face(std::int32_t f) const { return faces_[static_cast<std::size_t>(f)]; }
@@ -44,21 +49,32 @@ class CollapseMesh {
     /// The link condition, and no two faces that would cover each other; u and v are the ends of an edge.
     bool may_collapse(std::int32_t u, std::int32_t v) const;
 
-    /// Fills `patch` (kept for its memory) with the move of v to p, or of the collapse of u into v at p.
+    /// Fills `patch` (kept for its memory) with the move of v to p, or of the collapse of u into v at p. A
+    /// move keeps the bulges, a collapse makes those at v zero.
     void patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) const;
     void patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3& p, Patch& patch) const;
     /// No triangle of the patch is turned over, or folded onto a line.
     bool keeps_orientation(const Patch& patch) const;
 
-    void move(std::int32_t v, const Vec3& p) { points_[static_cast<std::size_t>(v)] = p; }
-    void collapse(std::int32_t u, std::int32_t v, const Vec3& p);
+    /// Makes `patch`, of a move of v or of a collapse of u into v, the surface.
+    void move(std::int32_t v, const Patch& patch);
+    void collapse(std::int32_t u, std::int32_t v, const Patch& patch);
+
+    /// The bulge of edge k of face f (from corner k to the next).
+    const Vec3& bulge(std::int32_t f, std::size_t k) const { return bulges_[static_cast<std::size_t>(f)][k]; }
+    void set_bulge(std::int32_t f, std::size_t k, const Vec3& b) {
+        bulges_[static_cast<std::size_t>(f)][k] = b;
+    }
 
     /// The faces that are left, with the vertices in use.
     TriangleMesh result() const;
+    /// Those faces, in the same order.
+    std::vector<std::int32_t> faces_left() const;
 
   private:
     std::vector<Vec3> points_;
-    std::vector<Triangle> faces_;  // a removed one: -1, -1, -1
+    std::vector<Triangle> faces_;              // a removed one: -1, -1, -1
+    std::vector<std::array<Vec3, 3>> bulges_;  // of each face, or empty: all are flat
     std::vector<std::vector<std::int32_t>> at_;
     std::size_t alive_ = 0;
 };

@@ -16,9 +16,9 @@ constexpr double kHopeless = 0.01;
 constexpr std::size_t kMostTrials = 10;
 // A coarser lattice must leave some of the limit to the neighbours.
 constexpr double kSlack = 0.92;
+// A move this much over the limit may be saved by the bulges; beyond, they are not tried.
+constexpr double kMayBeBent = 2;
 constexpr int kCoarsest = 5;  // lattices of 2^5 steps
-// Coordinates stay below 2^26, well within what the codec takes.
-constexpr int kFinestCode = -8 * 26;
 
 using GridPoint = std::array<std::int32_t, 3>;
 
@@ -78,14 +78,29 @@ class Snapper {
         return error_.forward(patch_, limit) <= limit &&
                error_.backward(patch_, limits_.backward) < kInfinity;
     }
+    Vec3 fitted_place() const {
+        if (!patch_.curved()) return error_.fitted(patch_);
+        Patch fitted = patch_;
+        error_.refit(fitted, true);
+        return fitted.triangles[0][0];
+    }
+    // Leaves the patch of the move in patch_. The bulges of a curved one follow where that is better.
     double cost(std::int32_t v, const GridPoint& q, double limit) {
         mesh_.patch_of_move(v, grid_.point(q), patch_);
-        return mesh_.keeps_orientation(patch_) ? error_.forward(patch_, limit) : kInfinity;
+        if (!mesh_.keeps_orientation(patch_)) return kInfinity;
+        const double plain = error_.forward(patch_, patch_.curved() ? kMayBeBent * limit : limit);
+        if (!patch_.curved() || plain <= limit || plain == kInfinity) return plain;
+        bent_ = patch_;
+        error_.refit(bent_, false);
+        const double bent = error_.forward(bent_, limit);
+        if (!(bent < plain)) return plain;
+        std::swap(patch_, bent_);
+        return bent;
     }
-    bool take(std::int32_t v, const GridPoint& q) {
-        mesh_.patch_of_move(v, grid_.point(q), patch_);
+    // The patch that cost() left.
+    bool take(std::int32_t v) {
         error_.commit(patch_);
-        mesh_.move(v, grid_.point(q));
+        mesh_.move(v, patch_);
         return true;
     }
 
@@ -107,21 +122,33 @@ class Snapper {
         if (normal[static_cast<int>(w)] != 0)
             on_surface[static_cast<int>(w)] -= slide / normal[static_cast<int>(w)];
         const std::int32_t height = grid_.nearest(on_surface)[w];
-        GridPoint best{};
-        double least = limit;
-        bool found = false;
+        struct Candidate {
+            double cost = kInfinity;
+            std::int32_t height = 0;
+        };
+        std::array<Candidate, 3> candidates;
+        std::size_t count = 0;
+        double most = limit;
         for (const std::int32_t h : {height, height - 1, height + 1}) {
             q[w] = h;
-            const double c = cost(v, q, least);
-            if (!(c <= least)) continue;
-            least = c;
-            best = q;
-            found = true;
+            const double c = cost(v, q, most);
+            if (!(c <= most)) continue;
+            candidates[count] = {c, h};
+            if (patch_.curved())
+                ++count;
+            else
+                most = c;  // of flat patches the second best is not worth its time: the last one stays
         }
-        if (!found) return false;
-        mesh_.patch_of_move(v, grid_.point(best), patch_);
-        return error_.backward(patch_, limits_.backward * limit / limits_.forward) < kInfinity &&
-               take(v, best);
+        std::sort(candidates.begin(), candidates.end(),
+                  [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+        for (const Candidate& candidate : candidates) {
+            if (candidate.cost == kInfinity) break;
+            q[w] = candidate.height;
+            cost(v, q, limit);
+            if (error_.backward(patch_, limits_.backward * limit / limits_.forward) < kInfinity)
+                return take(v);
+        }
+        return false;
     }
 
     // Nothing near the vertex keeps the limit now: the least evil, until its neighbours have come onto the
@@ -133,8 +160,7 @@ class Snapper {
         };
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
         std::vector<Candidate> candidates;
-        for (const GridPoint& middle :
-             {grid_.nearest(mesh_.point(v)), grid_.nearest(error_.fitted(patch_))}) {
+        for (const GridPoint& middle : {grid_.nearest(mesh_.point(v)), grid_.nearest(fitted_place())}) {
             for (std::int32_t i = 0; i < 27; ++i) {
                 const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
                 candidates.push_back({cost(v, q, kInfinity), q});
@@ -146,40 +172,23 @@ class Snapper {
         candidates.resize(kMostTrials);  // the way back is dear to measure
         for (const auto& [forward, q] : candidates) {
             if (!(forward < best.cost) || best.cost <= limits_.forward) break;
-            mesh_.patch_of_move(v, grid_.point(q), patch_);
+            cost(v, q, kInfinity);
             const double backward = error_.backward(patch_, std::min(best.cost, 3 * limits_.backward));
             const double worst = limits_.metric == Metric::max ? std::max(forward, backward) : forward;
             if (backward < kInfinity && worst < best.cost) best = {worst, q};
         }
-        take(v, best.q);
+        cost(v, best.q, kInfinity);
+        take(v);
     }
 
     CollapseMesh& mesh_;
     CollapseError& error_;
     const CollapseLimits& limits_;
     const Grid& grid_;
-    Patch patch_;
+    Patch patch_, bent_;
 };
 
 }  // namespace
-
-GridPoint Grid::nearest(const Vec3& p) const {
-    const Vec3 q = frame.to_local(p) / exp2_eighths(step_code);
-    return {static_cast<std::int32_t>(std::floor(q.x + 0.5)),
-            static_cast<std::int32_t>(std::floor(q.y + 0.5)),
-            static_cast<std::int32_t>(std::floor(q.z + 0.5))};
-}
-
-Vec3 Grid::point(const GridPoint& q) const {
-    const double s = exp2_eighths(step_code);  // as mesh_of (eval/mesh_part.h) has it
-    return frame.to_world({q[0] * s, q[1] * s, q[2] * s});
-}
-
-Grid Grid::around(const Box& box, double step) {
-    Grid grid{Frame::around(box), 0};
-    while (grid.step() > step && grid.step_code > kFinestCode) --grid.step_code;
-    return grid;
-}
 
 bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
                    bool persistent, const Task& task) {

@@ -2,6 +2,7 @@
 
 #include "pfgeom/base/error.h"
 #include "pfgeom/fit/collapse.h"
+#include "pfgeom/fit/curved_part.h"
 #include "pfgeom/fit/grid.h"
 
 #include <algorithm>
@@ -29,26 +30,15 @@ constexpr double kMostSamples = 2e5;
 // The rms says nothing about single points: they may be this many tolerances off.
 constexpr double kWorstOfRms = 8;
 
-Object object_of(const TriangleMesh& mesh, const Grid& grid) {
-    MeshPart part;
-    part.step_code = grid.step_code;
-    part.faces = mesh.faces;
-    part.positions.reserve(mesh.vertices.size());
-    for (const Vec3& v : mesh.vertices) part.positions.push_back(grid.nearest(v));
-    Object object;
-    object.frame = grid.frame;
-    object.shape = std::move(part);
-    return object;
-}
-
 }  // namespace
 
 Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, const Task& task) {
     if (!(options.tolerance > 0)) throw InvalidInput("the tolerance must be above 0");
     if (mesh.faces.empty()) throw InvalidInput("a mesh part needs at least one face");
     const Box box = bounds(mesh);
-    if (options.share <= 0) return object_of(mesh, Grid::around(box, options.tolerance / 8));
+    if (options.share <= 0) return part_on_grid(mesh, Grid::around(box, options.tolerance / 8));
 
+    if (options.curved) return fit_curved_part(mesh, options, task);
     const bool by_max = options.metric == Metric::max;
     const double goal = options.tolerance * options.share;
     const double spacing = std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples));
@@ -69,7 +59,7 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
         CollapseMesh snapped = work;
         CollapseError snapped_error = error;
         const bool kept = snap_vertices(snapped, snapped_error, outer, grid, step == kSteps.back(), task);
-        object = object_of(snapped.result(), grid);
+        object = part_on_grid(snapped.result(), grid);
         if (kept) break;
     }
     task.report(1, "simplify");

@@ -13,6 +13,7 @@ struct MeshPartOptions {
     /// Share of the tolerance that is used (the closed loop lowers it when a measurement fails); 0: no
     /// simplification, finest quantisation: the safety net, which always holds the tolerance.
     double share = 1.0;
+    bool curved = false;  ///< faces are quadratic Bézier triangles, unless share is 0
 };
 
 /// Simplifies by edge collapses ordered by the true two-sided error, then quantises; the result, dequantised,

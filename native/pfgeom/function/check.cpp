@@ -1,5 +1,7 @@
 #include "pfgeom/function/check.h"
 
+#include "pfgeom/function/edges_of_faces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -111,6 +113,12 @@ Flaw flaw_of(const MeshPart& part, const Model&) {
         if (std::any_of(f.begin(), f.end(), missing)) return "a face has a corner that does not exist";
         if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) return "a face has the same corner twice";
     }
+    if (!part.curved()) return {};
+    if (part.bulges.size() != EdgesOfFaces::of(part.faces).ends.size()) return "not every edge has one bulge";
+    const auto too_large = [](const Bulge& b) {
+        return std::abs(b.normal) > kMaxCoordinate || std::abs(b.sideways) > kMaxCoordinate;
+    };
+    if (std::any_of(part.bulges.begin(), part.bulges.end(), too_large)) return "a bulge is beyond 2^27 steps";
     return {};
 }
 

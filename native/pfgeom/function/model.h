@@ -98,13 +98,25 @@ struct Sheet {
     friend bool operator==(const Sheet&, const Sheet&) = default;
 };
 
+/// How far the middle of an edge lies from the middle of its chord, in steps along the axes of the edge
+/// (eval/edge_axes.h).
+struct Bulge {
+    std::int32_t normal = 0, sideways = 0;
+    friend bool operator==(const Bulge&, const Bulge&) = default;
+};
+
 /// What functions do not take: a coded mesh on an integer grid. Vertex = frame.to_world(positions · step).
+/// Its faces are flat, or quadratic Bézier triangles (function/curved_triangle.h).
 struct MeshPart {
     int step_code = 0;                                   ///< step = 2^(step_code / 8), in the cube's units
     std::vector<std::array<std::int32_t, 3>> positions;  ///< #V by 3
     std::vector<Triangle> faces;                         ///< #F by 3
+    int bulge_code = 0;                                  ///< of the bulges' step, as step_code
+    std::vector<Bulge> bulges;  ///< one for each row of EdgesOfFaces::of(faces); empty: all faces are flat
 
     double step() const { return exp2_eighths(step_code); }
+    double bulge_step() const { return exp2_eighths(bulge_code); }
+    bool curved() const { return !bulges.empty(); }
 
     friend bool operator==(const MeshPart&, const MeshPart&) = default;
 };
@@ -165,5 +177,10 @@ struct Model {
     std::vector<double> world_transform;    ///< optional: 16 values, row-major, the last row 0 0 0 1
     std::vector<std::int32_t> face_groups;  ///< optional: a label >= 0 for each face of the default mesh
 };
+
+/// The default mesh's chord tolerance, in the world's units.
+inline double chord_of(const Model& model, const Object& object) {
+    return model.diagonal * exp2_eighths(-2 * int{object.mesh_code});
+}
 
 }  // namespace pfgeom

@@ -7,10 +7,13 @@
 // large as the quadrics' bend allows, where signs at the corners of a grid need cells smaller than the
 // thinnest of them; and every triangle knows its quadric, so that the mesh can be adapted without asking the
 // tree again.
+#include "pfgeom/mesh/islands.h"
+#include "pfgeom/mesh/weld.h"
 #include "pfgeom/polygonize/crease_adapt.h"
 #include "pfgeom/polygonize/polygonize.h"
 
 #include <cmath>
+#include <vector>
 
 namespace pfgeom {
 namespace {
@@ -25,6 +28,24 @@ constexpr double kSnap = 0.1;
 constexpr double kEdgeChord = 0.75;
 // Of vertices, in tolerances.
 constexpr double kAccuracy = 0.01;
+// Pieces no larger than this, in tolerances, are no part of the shape, which is one piece: bits of what the
+// tree leaves open within its tube (a printed part's tree has two, of four vertices each).
+constexpr double kBit = 8;
+
+TriangleMesh without_bits(TriangleMesh mesh, double limit) {
+    const std::vector<std::vector<std::int32_t>> pieces = find_pieces(mesh);
+    if (pieces.size() < 2) return mesh;
+    std::vector<char> dropped(mesh.vertices.size());
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+        Box box;
+        for (const std::int32_t v : pieces[i]) box.grow(mesh.vertices[v]);
+        if (norm(box.extent()) > limit) continue;
+        for (const std::int32_t v : pieces[i]) dropped[v] = 1;
+    }
+    std::erase_if(mesh.faces, [&](const Triangle& t) { return dropped[t[0]] != 0; });
+    compact_vertices(mesh);
+    return mesh;
+}
 
 }  // namespace
 
@@ -47,7 +68,7 @@ TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, c
                                      .max_faces = options.max_faces};
     adapt_creases(LabelSurface(pruner), adapt_options, mesh, task);
     task.report(1, "triangles");
-    return {std::move(mesh.mesh.position), mesh.mesh.faces()};
+    return without_bits({std::move(mesh.mesh.position), mesh.mesh.faces()}, kBit * options.tolerance);
 }
 
 }  // namespace pfgeom

@@ -45,6 +45,8 @@ void expect_equal(const MeshPart& a, const MeshPart& b) {
     EXPECT_EQ(in_order.step_code, b.step_code);
     EXPECT_EQ(in_order.positions, b.positions);
     EXPECT_EQ(in_order.faces, b.faces);
+    EXPECT_EQ(in_order.bulge_code, b.bulge_code);
+    EXPECT_EQ(in_order.bulges, b.bulges);
 }
 
 void expect_equal(const SetTree& a, const SetTree& b) {

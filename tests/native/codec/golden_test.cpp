@@ -55,6 +55,10 @@ std::map<std::string, Model> golden_models() {
     Model& mesh = models["mesh"] = test::ball();
     mesh.functions.clear();
     mesh.objects[0].shape = test::random_mesh_part(random);
+    Random random_bulges(2019);
+    Model& curved = models["curved"] = mesh;
+    curved.objects[0].shape =
+        test::with_random_bulges(std::get<MeshPart>(mesh.objects[0].shape), random_bulges);
     Model& tree = models["tree"] = test::ball();
     tree.functions.clear();
     tree.objects[0].shape = test::random_tree(random, 6);

@@ -47,6 +47,13 @@ Model with_mesh_part() {
     return model;
 }
 
+Model with_curved_part() {
+    Random random(14);
+    Model model = with_mesh_part();
+    model.objects[0].shape = test::with_random_bulges(std::get<MeshPart>(model.objects[0].shape), random);
+    return model;
+}
+
 Model with_tree(int depth) {
     Random random(13);
     Model model = ball();
@@ -58,7 +65,8 @@ Model with_tree(int depth) {
 }
 
 std::vector<Bytes> small_files() {
-    return {encode(ball()), encode(with_hierarchy(3)), encode(with_mesh_part()), encode(with_tree(4))};
+    return {encode(ball()), encode(with_hierarchy(3)), encode(with_mesh_part()), encode(with_curved_part()),
+            encode(with_tree(4))};
 }
 
 Bytes flipped(Bytes bytes, std::size_t bit) {

@@ -1,6 +1,8 @@
 #include "pfgeom/codec/mesh_part_codec.h"
 
 #include "pfgeom/base/random.h"
+#include "pfgeom/function/edges_of_faces.h"
+#include "random_model.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +26,7 @@ MeshPart part_of(const TriangleMesh& mesh, int step_code) {
 std::vector<std::uint8_t> encoded(MeshPart part) {
     EntropyCoder coder;
     ContextMixer mixer;
-    EXPECT_EQ(code_mesh_part(coder, mixer, part, 1U << 30), FormatStatus::ok);
+    EXPECT_EQ(code_mesh_part(coder, mixer, part, part.curved(), 1U << 30), FormatStatus::ok);
     return coder.finish();
 }
 
@@ -34,17 +36,32 @@ struct Decoded {
     MeshPart part;
 };
 
-Decoded decoded(std::span<const std::uint8_t> bytes) {
+Decoded decoded(std::span<const std::uint8_t> bytes, bool curved = false) {
     Decoded result;
     EntropyCoder coder(bytes);
     ContextMixer mixer;
-    result.status = code_mesh_part(coder, mixer, result.part, bytes.size());
+    result.status = code_mesh_part(coder, mixer, result.part, curved, bytes.size());
     result.clean = coder.ended_cleanly();
     return result;
 }
 
 bool equal(const MeshPart& a, const MeshPart& b) {
-    return a.step_code == b.step_code && a.positions == b.positions && a.faces == b.faces;
+    return a.step_code == b.step_code && a.positions == b.positions && a.faces == b.faces &&
+           a.bulge_code == b.bulge_code && a.bulges == b.bulges;
+}
+
+// What bulges on which edge, as points.
+std::vector<std::array<std::array<std::int32_t, 3>, 3>> bulges_at(const MeshPart& part) {
+    std::vector<std::array<std::array<std::int32_t, 3>, 3>> result;
+    const EdgesOfFaces edges = EdgesOfFaces::of(part.faces);
+    for (std::size_t i = 0; i < edges.ends.size(); ++i) {
+        const auto a = part.positions[static_cast<std::size_t>(edges.ends[i][0])];
+        const auto b = part.positions[static_cast<std::size_t>(edges.ends[i][1])];
+        result.push_back(
+            {std::min(a, b), std::max(a, b), {part.bulges[i].normal, part.bulges[i].sideways, 0}});
+    }
+    std::sort(result.begin(), result.end());
+    return result;
 }
 
 // The faces as points, each turned to its least rotation: the surface without its numbering.
@@ -64,15 +81,26 @@ std::vector<std::array<std::array<std::int32_t, 3>, 3>> surface(const MeshPart& 
     return faces;
 }
 
-void expect_round_trip(const MeshPart& part) {
+void expect_one_round_trip(const MeshPart& part) {
     const MeshPart ordered = canonical(part);
     EXPECT_EQ(surface(ordered), surface(part));
     EXPECT_TRUE(equal(canonical(ordered), ordered));
     const std::vector<std::uint8_t> bytes = encoded(ordered);
-    const Decoded result = decoded(bytes);
+    const Decoded result = decoded(bytes, ordered.curved());
+    if (ordered.curved()) {
+        EXPECT_EQ(bulges_at(ordered), bulges_at(part));
+    }
     EXPECT_EQ(result.status, FormatStatus::ok);
     EXPECT_TRUE(result.clean);
     EXPECT_TRUE(equal(result.part, ordered));
+}
+
+// Flat, and with bulges.
+void expect_round_trip(const MeshPart& part) {
+    expect_one_round_trip(part);
+    if (part.faces.empty()) return;
+    Random random(part.faces.size());
+    expect_one_round_trip(test::with_random_bulges(part, random));
 }
 
 TriangleMesh random_soup(Random& random, std::size_t vertices, std::size_t faces) {
@@ -154,27 +182,59 @@ TEST(MeshPartCodec, RefusesCountsThatTheBytesCannotHold) {
 }
 
 TEST(MeshPartCodec, TruncatedStreamsNeverPassForTheWhole) {
-    const MeshPart part = canonical(part_of(shapes::sphere(2), -30));
-    const std::vector<std::uint8_t> bytes = encoded(part);
-    for (std::size_t n = 0; n < bytes.size(); ++n) {
-        const Decoded result = decoded(std::span(bytes).first(n));
-        EXPECT_FALSE(result.status == FormatStatus::ok && result.clean && equal(result.part, part)) << n;
+    Random random(17);
+    const MeshPart flat = canonical(part_of(shapes::sphere(2), -30));
+    for (const MeshPart& part : {flat, test::with_random_bulges(flat, random)}) {
+        const std::vector<std::uint8_t> bytes = encoded(part);
+        for (std::size_t n = 0; n < bytes.size(); ++n) {
+            const Decoded result = decoded(std::span(bytes).first(n), part.curved());
+            EXPECT_FALSE(result.status == FormatStatus::ok && result.clean && equal(result.part, part)) << n;
+        }
     }
 }
 
-TEST(MeshPartCodec, DamagedStreamsGiveAStatusOrAValidPart) {
-    const std::vector<std::uint8_t> bytes = encoded(canonical(part_of(shapes::scene_of_islands(9), -40)));
+TEST(MeshPartCodec, BulgesOfASphereAreForeseen) {
+    // Each edge bulges as an arc of the sphere does.
+    MeshPart part = canonical(part_of(shapes::sphere(3), -8 * 10));
+    part.bulge_code = part.step_code;
+    for (const auto& [a, b] : EdgesOfFaces::of(part.faces).ends) {
+        const auto at = [&](std::int32_t v) {
+            const auto& p = part.positions[static_cast<std::size_t>(v)];
+            return Vec3{1.0 * p[0], 1.0 * p[1], 1.0 * p[2]};
+        };
+        const double height = 1 / part.step() - norm((at(a) + at(b)) * 0.5);
+        part.bulges.push_back({static_cast<std::int32_t>(std::floor(height + 0.5)), 0});
+    }
+    MeshPart flat = part;
+    flat.bulges.clear();
+    const std::size_t more = encoded(part).size() - encoded(flat).size();
+    EXPECT_LT(more * 8, part.bulges.size() * 2);
+}
+
+void expect_valid_when_damaged(const MeshPart& part) {
+    const std::vector<std::uint8_t> bytes = encoded(part);
+    const bool curved = part.curved();
     Random random(5);
     for (std::size_t bit = 0; bit < bytes.size() * 8; bit += 1 + random.below(7)) {
         std::vector<std::uint8_t> damaged = bytes;
         damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1U << (bit % 8)));
-        const Decoded result = decoded(damaged);
+        const Decoded result = decoded(damaged, curved);
         const auto vertices = static_cast<std::int32_t>(result.part.positions.size());
         for (const Triangle& t : result.part.faces) {
             EXPECT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
             for (const std::int32_t v : t) EXPECT_TRUE(v >= 0 && v < vertices);
         }
+        if (curved && result.status == FormatStatus::ok) {
+            EXPECT_EQ(result.part.bulges.size(), EdgesOfFaces::of(result.part.faces).ends.size());
+        }
     }
+}
+
+TEST(MeshPartCodec, DamagedStreamsGiveAStatusOrAValidPart) {
+    Random random(19);
+    const MeshPart part = canonical(part_of(shapes::scene_of_islands(9), -40));
+    expect_valid_when_damaged(part);
+    expect_valid_when_damaged(test::with_random_bulges(part, random));
 }
 
 TEST(MeshPartCodec, RandomBytesGiveAStatusOrAValidPart) {
@@ -182,8 +242,10 @@ TEST(MeshPartCodec, RandomBytesGiveAStatusOrAValidPart) {
     for (int i = 0; i < 2000; ++i) {
         std::vector<std::uint8_t> bytes(random.below(200));
         for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random.next());
-        const Decoded result = decoded(bytes);
-        EXPECT_LE(result.part.faces.size(), 1024 + 32 * bytes.size());
+        for (const bool curved : {false, true}) {
+            const Decoded result = decoded(bytes, curved);
+            EXPECT_LE(result.part.faces.size(), 1024 + 32 * bytes.size());
+        }
     }
 }
 

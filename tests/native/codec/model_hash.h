@@ -48,7 +48,11 @@ class ModelHash {
     void add(const SetNode& n) { add(static_cast<std::uint8_t>(n.kind)), add(n.a), add(n.b), add(n.f); }
     void add(const Solid& s) { add(s.nodes); }
     void add(const Sheet& s) { add(s.surface), add(s.trim); }
-    void add(const MeshPart& m) { add(m.step_code), add(m.positions), add(m.faces); }
+    void add(const Bulge& b) { add(b.normal), add(b.sideways); }
+    void add(const MeshPart& m) {
+        add(m.step_code), add(m.positions), add(m.faces);
+        if (m.curved()) add(m.bulge_code), add(m.bulges);
+    }
     void add(const TreeQuadric& q) {
         add(q.family), add(q.linear_shift), add(q.square_shift), add(q.n), add(q.quadric);
     }

@@ -3,6 +3,7 @@
 
 #include "pfgeom/base/random.h"
 #include "pfgeom/eval/derive.h"
+#include "pfgeom/function/edges_of_faces.h"
 #include "pfgeom/function/model.h"
 #include "random_tree.h"
 
@@ -85,6 +86,18 @@ inline MeshPart random_mesh_part(Random& random) {
         if (c != a && c != b) part.faces.push_back({a, b, c});
     }
     if (part.faces.empty()) part.faces.push_back({0, 1, 2});
+    return part;
+}
+
+/// The part with a bulge on each edge: most are small, a few as large as they may be.
+inline MeshPart with_random_bulges(MeshPart part, Random& random) {
+    part.bulge_code = part.step_code - below(random, 10);
+    part.bulges.resize(EdgesOfFaces::of(part.faces).ends.size());
+    for (Bulge& b : part.bulges) {
+        const int most = below(random, 50) == 0 ? (1 << 27) - 1 : 1 + below(random, 6);
+        const auto any = [&] { return below(random, 2 * most + 1) - most; };
+        b = {any(), below(random, 3) == 0 ? any() : 0};
+    }
     return part;
 }
 

@@ -28,7 +28,7 @@ double two_sided(const TriangleMesh& a, const TriangleMesh& b) {
 
 TriangleMesh fitted(const TriangleMesh& mesh, double tolerance, double share = 1,
                     Metric metric = Metric::max) {
-    return mesh_of(fit_mesh_part(mesh, {tolerance, metric, share}));
+    return mesh_of(fit_mesh_part(mesh, {tolerance, metric, share}), {});
 }
 
 std::vector<TriangleMesh> named_shapes() {

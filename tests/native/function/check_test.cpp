@@ -65,8 +65,21 @@ TEST(Check, IndicesMustExist) {
     EXPECT_NE(with_node({static_cast<Kind>(7), 0, 0, 0}), "");
     EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = Solid{}; }), "");
     EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = Sheet{0, 1}; }), "");
-    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = MeshPart{0, {{0, 0, 0}}, {{0, 0, 1}}}; }), "");
-    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = MeshPart{0, {{0, 0, 1 << 27}}, {}}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) {
+                  m.objects[0].shape = MeshPart{0, {{0, 0, 0}}, {{0, 0, 1}}, 0, {}};
+              }),
+              "");
+    EXPECT_NE(flaw_after([](Model& m) {
+                  m.objects[0].shape = MeshPart{0, {{0, 0, 1 << 27}}, {}, 0, {}};
+              }),
+              "");
+    const MeshPart one_face{0, {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}, 0, {{1, 0}, {0, 0}, {0, 2}}};
+    EXPECT_EQ(flaw_after([&](Model& m) { m.objects[0].shape = one_face; }), "");
+    MeshPart too_few = one_face, too_large = one_face;
+    too_few.bulges.pop_back();
+    too_large.bulges[2].sideways = -(1 << 27);
+    EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = too_few; }), "");
+    EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = too_large; }), "");
 }
 
 TEST(Check, NestingMustNotBeACircle) {

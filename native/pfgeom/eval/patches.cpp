@@ -1,0 +1,163 @@
+#include "pfgeom/eval/patches.h"
+
+#include "pfgeom/base/error.h"
+#include "pfgeom/base/limits.h"
+#include "pfgeom/eval/edge_axes.h"
+#include "pfgeom/function/curved_triangle.h"
+#include "pfgeom/function/edges_of_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pfgeom {
+namespace {
+
+// An edge is divided into at most this many parts: a half circle, to 1e-4 of its radius.
+constexpr int kMostParts = 64;
+
+Vec3 corner(const Object& object, const MeshPart& part, std::int32_t vertex) {
+    const auto& q = part.positions[static_cast<std::size_t>(vertex)];
+    const double step = part.step();
+    return object.frame.to_world({q[0] * step, q[1] * step, q[2] * step});
+}
+
+// Of each edge, in the world.
+std::vector<Vec3> bulges_of(const Object& object, const MeshPart& part, const EdgesOfFaces& edges) {
+    const std::vector<EdgeAxes> axes = edge_axes(part, edges);
+    const double unit = part.bulge_step() * object.frame.half();
+    std::vector<Vec3> bulges;
+    bulges.reserve(axes.size());
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const Bulge& b = part.bulges[i];
+        bulges.push_back((axes[i].normal * b.normal + axes[i].sideways * b.sideways) * unit);
+    }
+    return bulges;
+}
+
+class Divider {
+  public:
+    Divider(const Object& object, const Fineness& fineness)
+        : object_(object),
+          part_(std::get<MeshPart>(object.shape)),
+          edges_(EdgesOfFaces::of(part_.faces)),
+          bulges_(bulges_of(object, part_, edges_)) {
+        for (std::size_t v = 0; v < part_.positions.size(); ++v)
+            mesh_.vertices.push_back(corner(object_, part_, static_cast<std::int32_t>(v)));
+        for (std::size_t e = 0; e < bulges_.size(); ++e) parts_.push_back(parts(e, fineness));
+        check_size();
+        for (std::size_t e = 0; e < bulges_.size(); ++e) add_edge(e);
+    }
+
+    TriangleMesh run() {
+        for (std::size_t f = 0; f < part_.faces.size(); ++f) add_face(f);
+        return std::move(mesh_);
+    }
+
+  private:
+    // A parabola over a chord, in n parts, is 1/n² of its height from theirs.
+    int parts(std::size_t edge, const Fineness& fineness) const {
+        const auto& [a, b] = edges_.ends[edge];
+        const Vec3 chord =
+            mesh_.vertices[static_cast<std::size_t>(b)] - mesh_.vertices[static_cast<std::size_t>(a)];
+        const double by_chord = std::sqrt(norm(bulges_[edge]) / fineness.chord);
+        const double by_length = bulges_[edge] == Vec3{} ? 1 : norm(chord) / fineness.length;
+        return static_cast<int>(std::clamp(std::ceil(std::max(by_chord, by_length)), 1.0, 1.0 * kMostParts));
+    }
+
+    void check_size() const {
+        std::size_t faces = 0;
+        for (const Triangle& edges : edges_.of_face) {
+            const auto n = static_cast<std::size_t>(most_parts(edges));
+            faces += n * n;
+        }
+        if (faces > Limits{}.polygon_faces)
+            throw LimitExceeded("too many triangles for a mesh of the patches");
+    }
+
+    int most_parts(const Triangle& edges) const {
+        int most = 1;
+        for (const std::int32_t e : edges) most = std::max(most, parts_[static_cast<std::size_t>(e)]);
+        return most;
+    }
+
+    // The points within an edge, in the direction of its row.
+    void add_edge(std::size_t edge) {
+        first_.push_back(static_cast<std::int32_t>(mesh_.vertices.size()));
+        const auto a = static_cast<std::size_t>(edges_.ends[edge][0]),
+                   b = static_cast<std::size_t>(edges_.ends[edge][1]);
+        for (int i = 1; i < parts_[edge]; ++i) {
+            const double t = static_cast<double>(i) / parts_[edge];
+            mesh_.vertices.push_back(mesh_.vertices[a] * (1 - t) + mesh_.vertices[b] * t +
+                                     bulges_[edge] * (4 * t * (1 - t)));
+        }
+    }
+
+    // The vertex at i of n parts of edge k of a face, from its corner k on: the nearest that the edge has.
+    std::int32_t on_edge(std::size_t face, std::size_t k, int i, int n) const {
+        const auto edge = static_cast<std::size_t>(edges_.of_face[face][k]);
+        const int parts = parts_[edge];
+        int at = (2 * i * parts + n) / (2 * n);
+        const bool along = edges_.ends[edge][0] == part_.faces[face][k];
+        if (!along) at = parts - at;
+        if (at == 0) return edges_.ends[edge][0];
+        if (at == parts) return edges_.ends[edge][1];
+        return first_[edge] + at - 1;
+    }
+
+    // A lattice as fine as the finest edge; on coarser ones its points fall together.
+    void add_face(std::size_t face) {
+        const int n = most_parts(edges_.of_face[face]);
+        const CurvedTriangle patch = surface(face);
+        std::vector<std::int32_t> before, row;
+        for (int i = 0; i <= n; ++i) {  // i / n: weight of corner 0 is 1 - i / n
+            row.clear();
+            for (int j = 0; j <= i; ++j) {
+                if (j == 0) {
+                    row.push_back(on_edge(face, 0, i, n));
+                } else if (j == i) {
+                    row.push_back(on_edge(face, 2, n - i, n));
+                } else if (i == n) {
+                    row.push_back(on_edge(face, 1, j, n));
+                } else {
+                    row.push_back(static_cast<std::int32_t>(mesh_.vertices.size()));
+                    mesh_.vertices.push_back(patch.at({1.0 * (n - i) / n, 1.0 * (i - j) / n, 1.0 * j / n}));
+                }
+            }
+            for (std::size_t j = 0; j + 1 < row.size(); ++j) {
+                add_triangle(before[j], row[j], row[j + 1]);
+                if (j > 0) add_triangle(before[j - 1], row[j], before[j]);
+            }
+            before = row;
+        }
+    }
+
+    void add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
+        if (a != b && b != c && c != a) mesh_.faces.push_back({a, b, c});
+    }
+
+    CurvedTriangle surface(std::size_t face) const {
+        CurvedTriangle patch;
+        for (std::size_t k = 0; k < 3; ++k) {
+            patch.corners[k] = mesh_.vertices[static_cast<std::size_t>(part_.faces[face][k])];
+            patch.bulges[k] = bulges_[static_cast<std::size_t>(edges_.of_face[face][k])];
+        }
+        return patch;
+    }
+
+    const Object& object_;
+    const MeshPart& part_;
+    EdgesOfFaces edges_;
+    std::vector<Vec3> bulges_;
+    std::vector<int> parts_;           // of each edge
+    std::vector<std::int32_t> first_;  // of each edge: its first vertex within
+    TriangleMesh mesh_;
+};
+
+}  // namespace
+
+TriangleMesh divide_patches(const Object& object, const Fineness& fineness) {
+    return Divider(object, fineness).run();
+}
+
+}  // namespace pfgeom

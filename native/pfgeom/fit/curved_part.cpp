@@ -1,0 +1,59 @@
+#include "pfgeom/fit/curved_part.h"
+
+#include "pfgeom/fit/bulge_grid.h"
+#include "pfgeom/fit/collapse.h"
+#include "pfgeom/fit/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfgeom {
+namespace {
+
+// Steps of the grid in tolerances, and of the bulges over it in eighths of an octave.
+constexpr double kStep = 0.8;
+constexpr int kBulgeCode = 4;
+// What collapses may use before the vertices are on the grid (then nearly all find a place), and after: what
+// is collapsed on the grid has paid for its rounding already.
+constexpr double kFirstShare = 0.75, kLaterShare = 0.95;
+// What coarser lattices may use, and whole steps of the bulges.
+constexpr double kLatticeShare = 0.97, kBulgeShare = 0.985;
+constexpr int kRounds = 3;
+// As in simplify.cpp.
+constexpr double kSpacing = 3, kMostSamples = 2e5, kWorstOfRms = 8;
+
+}  // namespace
+
+Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options, const Task& task) {
+    const Box box = bounds(mesh);
+    const bool by_max = options.metric == Metric::max;
+    const double goal = options.tolerance * options.share;
+    const auto within = [&](double share) {
+        return CollapseLimits{options.metric, share * goal, (by_max ? share : kWorstOfRms) * goal,
+                              box.diagonal()};
+    };
+    CollapseMesh work(mesh, true);
+    CollapseError error(mesh, options.metric, goal,
+                        std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples)), task);
+    task.report(0, "patches");
+    collapse_edges(work, error, within(kFirstShare), task);
+    relax_vertices(work, error, within(kFirstShare), task);
+    const Grid grid = Grid::around(box, kStep * goal);
+    snap_vertices(work, error, within(kLaterShare), grid, false, task);
+    const int bulge_code = grid.step_code + kBulgeCode;
+    error.quantise(grid, grid.frame.half() * exp2_eighths(bulge_code));
+    for (int round = 1; round <= kRounds; ++round) {
+        task.report(static_cast<double>(round) / (kRounds + 2), "patches");
+        relax_vertices(work, error, within(kLaterShare), task);
+        collapse_edges(work, error, within(kLaterShare), task);
+    }
+    snap_vertices(work, error, within(kLatticeShare), grid, true, task);
+    Object object = part_on_grid(work.result(), grid);
+    auto& part = std::get<MeshPart>(object.shape);
+    part.bulge_code = bulge_code;
+    snap_bulges(work, error, within(kBulgeShare), grid.frame, part, task);
+    task.report(1, "patches");
+    return object;
+}
+
+}  // namespace pfgeom

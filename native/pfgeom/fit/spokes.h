@@ -1,0 +1,36 @@
+// The edges at the moving vertex of a curved patch: what their bulges may be.
+#pragma once
+
+#include "pfgeom/fit/collapse_mesh.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace pfgeom {
+
+struct Spoke {
+    std::int32_t end = -1;
+    Vec3 along;             ///< from the moving vertex
+    Vec3 normal, sideways;  ///< unit vectors across it, or zero: the mean of the faces', and within them
+    bool bent = false;      ///< a crease or a border: it may bulge sideways too
+    int faces = 0;
+};
+
+class Spokes {
+  public:
+    explicit Spokes(const Patch& patch);
+
+    const std::vector<Spoke>& list() const { return list_; }
+    /// Of a row of the patch: the spokes to its corners 1 and 2.
+    const std::array<std::size_t, 2>& of_row(std::size_t row) const { return of_row_[row]; }
+    /// Sets a spoke's bulge in all rows, no longer than it may be.
+    void set(Patch& patch, std::size_t spoke, const Vec3& bulge) const;
+    const Vec3& bulge(const Patch& patch, std::size_t spoke) const;
+
+  private:
+    std::vector<Spoke> list_;
+    std::vector<std::array<std::size_t, 2>> of_row_;
+};
+
+}  // namespace pfgeom

@@ -1,0 +1,82 @@
+#include "pfgeom/fit/curved_part.h"
+
+#include "pfgeom/base/error.h"
+#include "pfgeom/eval/mesh_part.h"
+#include "pfgeom/report/deviation.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace pfgeom {
+namespace {
+
+Object curved(const TriangleMesh& mesh, double tolerance, double share = 1, Metric metric = Metric::max) {
+    return fit_mesh_part(mesh, {tolerance, metric, share, true});
+}
+
+double reached(const TriangleMesh& mesh, const Object& object, double tolerance) {
+    const TriangleMesh result = mesh_of(object, {.chord = tolerance / 100});
+    return measure_deviation(mesh, result, {.samples = 20'000}).max() / tolerance;
+}
+
+std::size_t faces(const Object& object) {
+    return std::get<MeshPart>(object.shape).faces.size();
+}
+
+TEST(CurvedPart, KeepsTheToleranceOnShapesOfEveryKind) {
+    for (const TriangleMesh& mesh :
+         {shapes::cube(), shapes::sphere(2), shapes::cylinder(), shapes::saddle(10), shapes::moebius(24),
+          shapes::misoriented_sphere(), shapes::edge_fan(), shapes::cubes_sharing_edge(),
+          shapes::sliver_fan()}) {
+        const double tolerance = 1e-2 * diagonal(mesh);
+        SCOPED_TRACE(testing::Message() << mesh.faces.size() << " faces");
+        const double first = reached(mesh, curved(mesh, tolerance), tolerance);
+        EXPECT_LE(first, 1.3);
+        if (first > 1) {  // what the closed loop then does
+            EXPECT_LE(reached(mesh, curved(mesh, tolerance, 0.7), tolerance), 1);
+        }
+    }
+}
+
+TEST(CurvedPart, ASingleQuadIsTwoFlatFaces) {
+    const Object object = curved(shapes::saddle(1, 0), 1e-3);
+    EXPECT_EQ(faces(object), 2U);
+    for (const Bulge& b : std::get<MeshPart>(object.shape).bulges) EXPECT_EQ(b, Bulge{});
+}
+
+TEST(CurvedPart, RoundShapesTakeLessThanHalfTheFaces) {
+    for (const TriangleMesh& mesh : {shapes::sphere(3), shapes::saddle(24)}) {
+        const double tolerance = 5e-3 * diagonal(mesh);
+        EXPECT_LT(2 * faces(curved(mesh, tolerance)),
+                  faces(fit_mesh_part(mesh, {tolerance, Metric::max, 1})));
+    }
+}
+
+TEST(CurvedPart, RmsTakesFewerFacesThanTheSameMaximum) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(2);
+    const double tolerance = 2e-2;
+    const Object object = curved(mesh, tolerance, 1, Metric::rms);
+    const TriangleMesh result = mesh_of(object, {.chord = 1e-4});
+    EXPECT_LE(measure_deviation(mesh, result, {.samples = 20'000}).rms(), 1.1 * tolerance);
+    EXPECT_LT(faces(object), faces(curved(mesh, tolerance)));
+}
+
+TEST(CurvedPart, DoesNotDependOnThreadsAndStopsWhenCancelled) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(2);
+    const MeshPartOptions options{1e-2, Metric::max, 1, true};
+    Task one, four, cancelled;
+    one.threads = 1;
+    four.threads = 4;
+    const auto a = std::get<MeshPart>(fit_mesh_part(mesh, options, one).shape);
+    const auto b = std::get<MeshPart>(fit_mesh_part(mesh, options, four).shape);
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.faces, b.faces);
+    EXPECT_EQ(a.bulges, b.bulges);
+    CancelToken token;
+    token.cancel();
+    cancelled.cancel = &token;
+    EXPECT_THROW(fit_mesh_part(mesh, options, cancelled), Cancelled);
+}
+
+}  // namespace
+}  // namespace pfgeom
