@@ -11,9 +11,7 @@
 namespace pfgeom {
 namespace {
 
-// How far a vertex may be moved, in tolerances: the tip of a pit between three ellipsoids is far from where
-// planes in their place meet (with 8, 2.3 tolerances too deep; with 32, 1.5).
-constexpr double kReach = 32;
+constexpr double kReach = 8;    // how far a vertex may be moved, in tolerances
 constexpr double kShort = 0.1;  // edges that may be dropped across creases, in tolerances
 constexpr int kRounds = 40;     // of splits
 constexpr int kFlips = 8;       // at most as many times the edges: rounding could make it endless

@@ -6,7 +6,7 @@ namespace {
 constexpr int kSteps = 8;  // of Newton; two are the rule
 // Sine of the least angle between zero sets at which their intersection is looked for. At smaller ones it is
 // far away, or not there, and the first of them is within the tolerance of the others.
-constexpr double kLeastSine = 0.03;
+constexpr double kLeastSine = 0.05;
 
 }  // namespace
 
