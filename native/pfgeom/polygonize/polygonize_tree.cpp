@@ -28,21 +28,40 @@ constexpr double kSnap = 0.1;
 constexpr double kEdgeChord = 0.75;
 // Of vertices, in tolerances.
 constexpr double kAccuracy = 0.01;
-// Pieces no larger than this, in tolerances, are no part of the shape, which is one piece: bits of what the
-// tree leaves open within its tube (a printed part's tree has two, of four vertices each).
-constexpr double kBit = 8;
+// Pieces beside the largest whose volume over their area is less than this, in tolerances, are no part of the
+// shape, which is one piece: slivers that the tree leaves within its tube (a printed part's has two, of four
+// vertices each, up to 20 long).
+constexpr double kBit = 1;
 
-TriangleMesh without_bits(TriangleMesh mesh, double limit) {
+struct Extent {
+    double volume = 0, area = 0;
+};
+
+// Of each piece: six times, and twice.
+std::vector<Extent> extents(const TriangleMesh& mesh, const std::vector<std::int32_t>& piece_of,
+                            std::size_t pieces) {
+    std::vector<Extent> all(pieces);
+    for (const auto& [i, j, k] : mesh.faces) {
+        const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+        Extent& extent = all[piece_of[i]];
+        extent.volume += dot(a, cross(b, c));
+        extent.area += norm(cross(b - a, c - a));
+    }
+    return all;
+}
+
+TriangleMesh without_bits(TriangleMesh mesh, double thickness) {
     const std::vector<std::vector<std::int32_t>> pieces = find_pieces(mesh);
     if (pieces.size() < 2) return mesh;
-    std::vector<char> dropped(mesh.vertices.size());
-    for (std::size_t i = 1; i < pieces.size(); ++i) {
-        Box box;
-        for (const std::int32_t v : pieces[i]) box.grow(mesh.vertices[v]);
-        if (norm(box.extent()) > limit) continue;
-        for (const std::int32_t v : pieces[i]) dropped[v] = 1;
+    std::vector<std::int32_t> piece_of(mesh.vertices.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        for (const std::int32_t v : pieces[i]) piece_of[v] = static_cast<std::int32_t>(i);
     }
-    std::erase_if(mesh.faces, [&](const Triangle& t) { return dropped[t[0]] != 0; });
+    const std::vector<Extent> extent = extents(mesh, piece_of, pieces.size());
+    std::erase_if(mesh.faces, [&](const Triangle& t) {
+        const auto& [volume, area] = extent[piece_of[t[0]]];
+        return piece_of[t[0]] > 0 && std::abs(volume) < 3 * thickness * area;
+    });
     compact_vertices(mesh);
     return mesh;
 }

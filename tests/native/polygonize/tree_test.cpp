@@ -136,6 +136,17 @@ TEST(Tree, CreaseOfTwoSpheres) {
     }
 }
 
+TEST(Tree, BitsBesideTheShapeAreLeftOut) {
+    const auto pieces = [](double radius) {
+        const RegionPtr both = either(where(turned({-0.3, 0, 0}, 0.5)), where(turned({0.8, 0, 0}, radius)));
+        const TriangleMesh mesh = mesh_of(both, 1e-2);
+        EXPECT_TRUE(is_closed_manifold(mesh));
+        return euler_characteristic(mesh) / 2;
+    };
+    EXPECT_EQ(pieces(0.02), 1) << "volume over area: two thirds of the tolerance";
+    EXPECT_EQ(pieces(0.08), 2);
+}
+
 // A quarter round that runs tangentially into both of its planes.
 TEST(Tree, TangentFillet) {
     const Vec3 axis{0, 0, 1};
