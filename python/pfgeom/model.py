@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from copy import deepcopy
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -339,8 +340,8 @@ class Model:
             "functions": self.functions._asdict(),
             **self._promise,
             "bounds": self.bounds.tolist(),
-            "objects": self.objects,
-            "function_list": self.function_list,
+            "objects": deepcopy(self.objects),
+            "function_list": deepcopy(self.function_list),
             "sizes": self._core.sizes(),
         }
 
