@@ -31,7 +31,7 @@ constexpr double kAccuracy = 0.01;
 // Pieces beside the largest whose volume over their area is less than this, in tolerances, are no part of the
 // shape, which is one piece: slivers that the tree leaves within its tube (a printed part's has two, of four
 // vertices each, up to 20 long).
-constexpr double kBit = 1;
+constexpr double kBit = 1.0 / 3;
 
 struct Extent {
     double volume = 0, area = 0;

@@ -143,7 +143,7 @@ TEST(Tree, BitsBesideTheShapeAreLeftOut) {
         EXPECT_TRUE(is_closed_manifold(mesh));
         return euler_characteristic(mesh) / 2;
     };
-    EXPECT_EQ(pieces(0.02), 1) << "volume over area: two thirds of the tolerance";
+    EXPECT_EQ(pieces(0.009), 1) << "volume over area: a third of the radius";
     EXPECT_EQ(pieces(0.08), 2);
 }
 
