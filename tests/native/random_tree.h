@@ -23,6 +23,20 @@ inline TreeNode with_children(TreeNode node, std::int32_t high, std::int32_t low
     return node;
 }
 
+inline TreeNode ask(std::int32_t quadric, std::int32_t high, std::int32_t low) {
+    TreeNode node;
+    node.kind = TreeNode::Kind::ask;
+    node.quadric = quadric;
+    return with_children(node, high, low);
+}
+
+inline TreeQuadric of_family(std::uint8_t family, const std::array<std::int32_t, 10>& n) {
+    TreeQuadric q;
+    q.family = family;
+    q.n = n;
+    return q;
+}
+
 /// A tree without nodes on [-half, half]³, half in units of 2^-(resolution + 1).
 inline SetTree box_tree(int resolution, std::int32_t half) {
     SetTree tree;

@@ -29,10 +29,11 @@ SetTree tree_of(const Quadric& quadric) {
 }
 
 // What is proved of the quadric's surface, in the cube's units; 0: nothing.
-double proved_of(const Quadric& quadric, const TriangleMesh& mesh, double tolerance, const Task& task) {
+double proved_of(const Quadric& quadric, const TriangleMesh& mesh, const Bvh& bvh, double tolerance,
+                 const Task& task) {
     TreeBoundOptions options;
     options.labels = 0;
-    const TreeBound bound = bound_tree(tree_of(quadric), mesh, Bvh(mesh), tolerance, options, task);
+    const TreeBound bound = bound_tree(tree_of(quadric), mesh, bvh, tolerance, options, task);
     return bound.certified ? bound.proved : 0;
 }
 
@@ -59,8 +60,8 @@ std::optional<Outcome> try_quadric(const Goal& goal, const Task& task) {
     if (!outcome.holds) return {};
     const double looked =
         goal.metric == Metric::max ? kProofShare * tolerance : std::max(tolerance, kProofOfRms * fit->max);
-    outcome.bound_functions = proved_of(outcome.functions[0].base, in_cube(goal.mesh, target.frame), looked,
-                                        quiet(task, task.threads)) *
+    outcome.bound_functions = proved_of(outcome.functions[0].base, in_cube(goal.mesh, target.frame),
+                                        target.bvh, looked, quiet(task, task.threads)) *
                               target.frame.half();
     return outcome;
 }

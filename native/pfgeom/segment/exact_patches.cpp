@@ -16,14 +16,14 @@
 namespace pfgeom {
 namespace {
 
-constexpr double kExact = 2e-6;         // of the diagonal: single precision, or six digits of text
-constexpr std::size_t kSeedSize = 14;   // vertices of a seed; nine would fit any quadric
-constexpr std::size_t kLeastSize = 40;  // of a patch worth having
-constexpr double kFlat = 1e-3;          // height of a flat seed, of its radius
-constexpr double kAligned = 0.9;        // cosine between gradient and vertex normal
-constexpr int kMostLooks = 500;         // at all vertices
-constexpr std::size_t kLongWalk = 1000;
-constexpr double kRefit = 1.5;  // growth after which the quadric is solved again
+constexpr double kExact = 2e-6;          // of the diagonal: single precision, or six digits of text
+constexpr std::size_t kSeedSize = 14;    // vertices of a seed; nine would fit any quadric
+constexpr std::size_t kLeastSize = 40;   // of a patch worth having
+constexpr double kFlat = 1e-3;           // height of a flat seed, of its radius
+constexpr double kAligned = 0.9;         // cosine between gradient and vertex normal
+constexpr int kMostLooks = 500;          // at all vertices
+constexpr std::size_t kLongWalk = 1000;  // vertices; shorter vain walks cost nothing
+constexpr double kRefit = 1.5;           // growth after which the quadric is solved again
 
 // A quadric through the points of a patch, in a frame in which the patch fills the unit ball: there its
 // system is as well conditioned as the patch allows.

@@ -19,13 +19,6 @@ Vec3 random_point(Random& random, double reach) {
     return {x, y, z};
 }
 
-TreeNode ask(std::int32_t quadric, std::int32_t high, std::int32_t low) {
-    TreeNode node;
-    node.kind = Kind::ask;
-    node.quadric = quadric;
-    return test::with_children(node, high, low);
-}
-
 TreeQuadric axis_plane(std::uint8_t axis, std::int32_t sign, std::int32_t constant) {
     TreeQuadric q;
     q.family = axis;
@@ -37,7 +30,8 @@ TreeQuadric axis_plane(std::uint8_t axis, std::int32_t sign, std::int32_t consta
 SetTree wedge() {
     SetTree tree = test::box_tree(10, 1536);
     tree.quadrics = {axis_plane(0, -1, 512), axis_plane(1, -1, 256)};
-    tree.nodes = {ask(0, 1, 4), ask(1, 2, 3), test::leaf(true), test::leaf(false), test::leaf(false)};
+    tree.nodes = {test::ask(0, 1, 4), test::ask(1, 2, 3), test::leaf(true), test::leaf(false),
+                  test::leaf(false)};
     derive(tree);
     return tree;
 }

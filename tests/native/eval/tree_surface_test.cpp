@@ -13,27 +13,14 @@ namespace {
 
 using Kind = TreeNode::Kind;
 
-TreeNode ask(std::int32_t quadric, std::int32_t high, std::int32_t low) {
-    TreeNode node;
-    node.kind = Kind::ask;
-    node.quadric = quadric;
-    return test::with_children(node, high, low);
-}
-
-TreeQuadric of_family(std::uint8_t family, std::array<std::int32_t, 10> n) {
-    TreeQuadric q;
-    q.family = family;
-    q.n = n;
-    return q;
-}
-
 // In units of 2^-10: x < 1/2, and within a ball of radius 1/4 about the origin if x < -3/8; the box has half
 // edge 3/4.
 SetTree half_box() {
     SetTree tree = test::box_tree(10, 1536);
-    tree.quadrics = {of_family(0, {-1, 512}), of_family(0, {1, 384}), of_family(7, {-1024, 0, 0, 0, 64})};
-    tree.nodes = {ask(0, 1, 6),     ask(1, 2, 3),      test::leaf(true), ask(2, 4, 5),
-                  test::leaf(true), test::leaf(false), test::leaf(false)};
+    tree.quadrics = {test::of_family(0, {-1, 512}), test::of_family(0, {1, 384}),
+                     test::of_family(7, {-1024, 0, 0, 0, 64})};
+    tree.nodes = {test::ask(0, 1, 6), test::ask(1, 2, 3), test::leaf(true), test::ask(2, 4, 5),
+                  test::leaf(true),   test::leaf(false),  test::leaf(false)};
     derive(tree);
     return tree;
 }
@@ -54,8 +41,9 @@ TEST(TreeSurface, AreasOfABoxWithACutCorner) {
 
 TEST(TreeSurface, AreaOfABallAndItsHole) {
     SetTree tree = test::box_tree(10, 1536);
-    tree.quadrics = {of_family(7, {-1024, 0, 0, 0, 256}), of_family(7, {1024, 0, 0, 0, -64})};
-    tree.nodes = {ask(0, 1, 4), ask(1, 2, 3), test::leaf(true), test::leaf(false), test::leaf(false)};
+    tree.quadrics = {test::of_family(7, {-1024, 0, 0, 0, 256}), test::of_family(7, {1024, 0, 0, 0, -64})};
+    tree.nodes = {test::ask(0, 1, 4), test::ask(1, 2, 3), test::leaf(true), test::leaf(false),
+                  test::leaf(false)};
     derive(tree);
     const TreeSurface surface = find_surface(tree);
     EXPECT_NEAR(surface.patches[0].area, std::numbers::pi, 0.05);
@@ -85,8 +73,8 @@ TEST(TreeSurface, CutsAreSurfacesOfTheirOwn) {
 TEST(TreeSurface, ASmallPatchIsFoundAndFilled) {
     // A ball of radius 1/128, which few rays meet.
     SetTree tree = test::box_tree(14, 1 << 15);
-    tree.quadrics = {of_family(7, {-(1 << 14), 0, 0, 0, 1})};
-    tree.nodes = {ask(0, 1, 2), test::leaf(true), test::leaf(false)};
+    tree.quadrics = {test::of_family(7, {-(1 << 14), 0, 0, 0, 1})};
+    tree.nodes = {test::ask(0, 1, 2), test::leaf(true), test::leaf(false)};
     derive(tree);
     const TreeSurface surface = find_surface(tree);
     ASSERT_GE(surface.patches[0].points.size(), 100U);

@@ -11,25 +11,12 @@ namespace {
 
 using Kind = QuadricKind;
 
-TreeNode ask(std::int32_t quadric, std::int32_t high, std::int32_t low) {
-    TreeNode node;
-    node.kind = TreeNode::Kind::ask;
-    node.quadric = quadric;
-    return test::with_children(node, high, low);
-}
-
-TreeQuadric of_family(std::uint8_t family, std::array<std::int32_t, 10> n) {
-    TreeQuadric q;
-    q.family = family;
-    q.n = n;
-    return q;
-}
-
 // A plate that fills the box, with a hole of radius 1/4 along z and a plane that separates nothing.
 Object plate_with_hole() {
     SetTree tree = test::box_tree(10, 1536);
-    tree.quadrics = {of_family(4, {1024, 0, 0, -64}), of_family(0, {1, 100})};
-    tree.nodes = {ask(0, 1, 4), ask(1, 2, 3), test::leaf(true), test::leaf(true), test::leaf(false)};
+    tree.quadrics = {test::of_family(4, {1024, 0, 0, -64}), test::of_family(0, {1, 100})};
+    tree.nodes = {test::ask(0, 1, 4), test::ask(1, 2, 3), test::leaf(true), test::leaf(true),
+                  test::leaf(false)};
     derive(tree);
     Object object;
     object.frame.scale_code = 16;  // half edge 4
