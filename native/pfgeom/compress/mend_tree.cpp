@@ -1,10 +1,12 @@
 #include "pfgeom/compress/mend_tree.h"
 
+#include "pfgeom/base/parallel.h"
 #include "pfgeom/base/random.h"
 #include "pfgeom/report/tree_bound.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace pfgeom {
@@ -36,47 +38,69 @@ constexpr double kJitter = 0.7;
 
 class Mender {
   public:
-    Mender(TreeFit& fit, TreeFitOptions& options, const TreeTarget& target, double certified,
-           const Task& task)
-        : fit_(fit), options_(options), target_(target), certified_(certified), task_(task) {}
+    Mender(TreeCandidate& tree, const TreeTarget& target, double certified)
+        : fit_(tree.fit),
+          options_(tree.options),
+          proved_(tree.proved),
+          target_(target),
+          certified_(certified) {}
 
-    std::optional<double> run(double most_bits) {
-        for (int round = 0; round < kMostRounds;) {
-            const double reach = (round < kCalmRound ? 1 : kCalmShare) * options_.tolerance;
-            TreeBound bound = rough_bound(reach);
-            if (!bound.sides_defined || bound.counts.unresolved > kMostUnresolved) return {};
-            if (round >= kHopefulRounds && bound.counter_examples.size() > kFew) return {};
-            if (nearly_holds(bound)) {
-                TreeBoundOptions fine;
-                fine.labels = 0;
-                const TreeBound exact = bound_of(kProofShare * certified_, fine);
-                if (exact.holds(certified_)) return exact.proved;
-                append(exact.counter_examples, bound.counter_examples);
-                append(exact.missed, bound.missed);
-            }
-            if (bound.counter_examples.empty() && bound.missed.empty()) return {};
-            if (bound.counter_examples.empty() && fit_.mostly_whole() && holds_ < kMostHolds) {
-                hold(bound.missed);
-                continue;
-            }
-            ++round;
-            repair_set_tree(fit_, target_.bvh, evidence(bound, reach), task_);
-            if (fit_.bits > most_bits) return {};
+    bool ended() const { return given_up_ || proved_ > 0; }
+    bool certified() const { return proved_ > 0; }
+    double bits() const { return fit_.bits; }
+
+    // A certificate, and the repair of what it finds.
+    void round(const Task& task) {
+        // What nearly held the last time often holds now: then the rough look is not needed.
+        std::optional<TreeBound> exact;
+        if (nearly_) exact = prove(task);
+        if (certified()) return;
+        TreeBound bound = rough_bound(task);
+        if (hopeless(bound)) return give_up();
+        nearly_ = nearly_holds(bound);
+        if (nearly_ && !exact) exact = prove(task);
+        if (certified()) return;
+        if (exact) {
+            append(exact->counter_examples, bound.counter_examples);
+            append(exact->missed, bound.missed);
         }
-        return {};
+        if (bound.counter_examples.empty() && bound.missed.empty()) return give_up();
+        if (bound.counter_examples.empty() && fit_.mostly_whole() && holds_ < kMostHolds)
+            return hold(bound.missed, task);
+        repair_set_tree(fit_, target_.bvh, evidence(bound), task);
+        if (++rounds_ == kMostRounds) give_up();
     }
 
   private:
-    TreeBound bound_of(double reach, const TreeBoundOptions& options) const {
-        return bound_tree(fit_.tree, target_.mesh, target_.bvh, reach, options, task_);
+    void give_up() { given_up_ = true; }
+
+    // Where counter-examples are looked for.
+    double reach() const { return (rounds_ < kCalmRound ? 1 : kCalmShare) * options_.tolerance; }
+
+    TreeBound bound_of(double reach, const TreeBoundOptions& options, const Task& task) const {
+        return bound_tree(fit_.tree, target_.mesh, target_.bvh, reach, options, task);
     }
 
-    TreeBound rough_bound(double reach) const {
+    TreeBound rough_bound(const Task& task) const {
         TreeBoundOptions rough;
         rough.finest = kRoughest;
         rough.labels = kLabels;
         rough.max_cells = kMostCells;
-        return bound_of(reach, rough);
+        rough.max_unresolved = kMostUnresolved;
+        return bound_of(reach(), rough, task);
+    }
+
+    TreeBound prove(const Task& task) {
+        TreeBoundOptions fine;
+        fine.labels = 0;
+        TreeBound bound = bound_of(kProofShare * certified_, fine, task);
+        if (bound.holds(certified_)) proved_ = bound.proved;
+        return bound;
+    }
+
+    bool hopeless(const TreeBound& bound) const {
+        return !bound.sides_defined || bound.counts.unresolved > kMostUnresolved ||
+               (rounds_ >= kHopefulRounds && bound.counter_examples.size() > kFew);
     }
 
     bool nearly_holds(const TreeBound& bound) const {
@@ -86,11 +110,12 @@ class Mender {
                });
     }
 
-    void hold(const std::vector<LabelledPoint>& missed) {
+    void hold(const std::vector<LabelledPoint>& missed, const Task& task) {
         ++holds_;
+        nearly_ = false;
         held_ *= kHold;
         for (const LabelledPoint& p : missed) options_.held.push_back({p.point, held_});
-        refit_set_tree(fit_, target_.mesh, target_.bvh, options_, task_);
+        refit_set_tree(fit_, target_.mesh, target_.bvh, options_, task);
     }
 
     static void append(const std::vector<LabelledPoint>& more, std::vector<LabelledPoint>& list) {
@@ -99,7 +124,7 @@ class Mender {
 
     // All that the certificate has labelled; about its counter-examples, whose cells are small, points beside
     // them as well: else the next one lies there.
-    std::vector<KnownSide> evidence(const TreeBound& bound, double reach) {
+    std::vector<KnownSide> evidence(const TreeBound& bound) {
         std::vector<KnownSide> points;
         for (const auto* list : {&bound.counter_examples, &bound.missed, &bound.labels}) {
             for (const LabelledPoint& p : *list) points.push_back({p.point, p.inside});
@@ -108,18 +133,21 @@ class Mender {
         for (std::size_t i = 0; i < kBeside * count; ++i) {
             const LabelledPoint& known = bound.counter_examples[i % count];
             Vec3 p = known.point;
-            for (int axis = 0; axis < 3; ++axis) p[axis] += kJitter * reach * (2 * random_.uniform() - 1);
+            for (int axis = 0; axis < 3; ++axis) p[axis] += kJitter * reach() * (2 * random_.uniform() - 1);
             const SignedClosest closest = target_.distance(p, known.face);
-            if (std::abs(closest.distance) > reach) points.push_back({p, closest.distance > 0});
+            if (std::abs(closest.distance) > reach()) points.push_back({p, closest.distance > 0});
         }
         return points;
     }
 
     TreeFit& fit_;
     TreeFitOptions& options_;
+    double& proved_;
     const TreeTarget& target_;
     double certified_;
-    const Task& task_;
+    bool given_up_ = false;
+    bool nearly_ = false;  // at the last rough look
+    int rounds_ = 0;
     Random random_{1};
     int holds_ = 0;
     double held_ = 1;
@@ -127,9 +155,21 @@ class Mender {
 
 }  // namespace
 
-std::optional<double> mend_tree(TreeFit& fit, TreeFitOptions& options, const TreeTarget& target,
-                                double certified, double most_bits, const Task& task) {
-    return Mender(fit, options, target, certified, task).run(most_bits);
+void mend_trees(std::span<TreeCandidate> trees, const TreeTarget& target, double certified, double most_bits,
+                const Task& task) {
+    std::vector<Mender> menders;
+    for (TreeCandidate& tree : trees) menders.emplace_back(tree, target, certified);
+    std::vector<Mender*> open;
+    for (Mender& mender : menders) open.push_back(&mender);
+    for (;;) {
+        std::erase_if(open, [&](const Mender* m) { return m->ended() || m->bits() > most_bits; });
+        if (open.empty()) return;
+        const int threads = std::max(1, thread_count(task) / static_cast<int>(open.size()));
+        parallel_chunks(open.size(), 1, task,
+                        [&](std::size_t i, std::size_t) { open[i]->round(quiet(task, threads)); });
+        for (const Mender* m : open)
+            if (m->certified()) most_bits = std::min(most_bits, m->bits());
+    }
 }
 
 }  // namespace pfgeom

@@ -5,14 +5,19 @@
 #include "pfgeom/compress/tree_target.h"
 #include "pfgeom/fit/set_tree.h"
 
-#include <optional>
+#include <span>
 
 namespace pfgeom {
 
-/// What is proved of the tree in the end, at most `certified`, in the cube's units. Nothing: it does not come
-/// to that, or the tree grows beyond `most_bits`. `options`: those of the fit, whose tolerance is a little
-/// less than `certified`; mending adds to `held`.
-std::optional<double> mend_tree(TreeFit& fit, TreeFitOptions& options, const TreeTarget& target,
-                                double certified, double most_bits, const Task& task);
+struct TreeCandidate {
+    TreeFit fit;
+    TreeFitOptions options;  ///< of the fit; their tolerance is a little less than what is certified
+    double proved = 0;       ///< in the cube's units; 0: not certified
+};
+
+/// Certifies the trees, side by side, and sets `proved`, at most `certified`. Those that do not come to that
+/// stay at 0, and so do those that grow beyond `most_bits` or beyond one that is certified.
+void mend_trees(std::span<TreeCandidate> trees, const TreeTarget& target, double certified, double most_bits,
+                const Task& task);
 
 }  // namespace pfgeom

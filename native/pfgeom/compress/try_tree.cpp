@@ -1,6 +1,5 @@
 // A set-operation tree: fitted to points, mended until it is certified, then proved like every candidate on
 // its bytes and its default mesh.
-#include "pfgeom/base/parallel.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mend_tree.h"
 #include "pfgeom/compress/mesh_code.h"
@@ -76,16 +75,10 @@ class TreeSearch {
     }
 
   private:
-    struct Candidate {
-        TreeFit fit;
-        TreeFitOptions options;
-        double proved = 0;  // in the cube's units; 0: not certified
-    };
-
     std::optional<Outcome> by_max() const {
         double share = kTreeShare;
         for (int proof = 0; proof < kMostProofs; ++proof) {
-            std::optional<Candidate> found = smallest(share, goal_.tolerance);
+            std::optional<TreeCandidate> found = smallest(share, goal_.tolerance);
             if (!found) return {};
             double reached = 0;
             for (const double chord : kChordShares) {
@@ -105,7 +98,7 @@ class TreeSearch {
     }
 
     // With longer chords, as far as they hold.
-    Outcome slimmer(Candidate& found, Outcome outcome) const {
+    Outcome slimmer(TreeCandidate& found, Outcome outcome) const {
         for (const double chord : kLongChordShares) {
             if (!is_dense(outcome)) break;
             Outcome longer = prove_tree(found, chord * goal_.tolerance, goal_.tolerance);
@@ -120,7 +113,7 @@ class TreeSearch {
         std::optional<Outcome> best;
         double most = kMaxOverRms * goal_.tolerance;
         for (int proof = 0; proof < kMostProofs; ++proof) {
-            std::optional<Candidate> found = smallest(kTreeShare, most);
+            std::optional<TreeCandidate> found = smallest(kTreeShare, most);
             if (!found) break;
             Outcome outcome = prove_tree(*found, kChordOfRms * goal_.tolerance, most);
             if (outcome.mesh.faces.empty()) break;
@@ -134,7 +127,7 @@ class TreeSearch {
     }
 
     // Fitted within this share of the tolerance, certified to all of it.
-    std::optional<Candidate> smallest(double share, double tolerance) const {
+    std::optional<TreeCandidate> smallest(double share, double tolerance) const {
         const double certified = tolerance / frame_.half();
         const std::size_t settings = goal_.effort == Effort::fast ? 1 : std::size(kShares);
         for (const auto& shares : {std::span(kShares), std::span(kOtherwise)}) {
@@ -143,29 +136,25 @@ class TreeSearch {
         return {};
     }
 
-    // Of the settings, the certified tree with the fewest bits. They are mended side by side.
-    std::optional<Candidate> smallest_of(std::span<const Shares> settings, double tolerance,
-                                         double certified) const {
-        std::vector<Candidate> fits;
+    // Of the settings, the certified tree with the fewest bits.
+    std::optional<TreeCandidate> smallest_of(std::span<const Shares> settings, double tolerance,
+                                             double certified) const {
+        std::vector<TreeCandidate> fits;
         for (const Shares& shares : settings) {
             const TreeFitOptions options = options_for(shares, tolerance);
-            fits.push_back({fit_set_tree(target_.mesh, target_.bvh, options, task_), options, 0});
+            fits.push_back({fit_set_tree(target_.mesh, target_.bvh, options, task_), options});
             if (fits.back().fit.tree.nodes.empty()) return {};
             if (fits.back().fit.mostly_whole()) break;  // no seams that want other shares
         }
-        const int threads = std::max(1, thread_count(task_) / static_cast<int>(fits.size()));
-        parallel_chunks(fits.size(), 1, task_, [&](std::size_t i, std::size_t) {
-            if (fits[i].fit.bits < most_bits()) mend(fits[i], certified, quiet(task_, threads));
-        });
-        std::erase_if(fits, [](const Candidate& c) { return c.proved == 0; });
-        const auto best = std::ranges::min_element(fits, {}, [](const Candidate& c) { return c.fit.bits; });
+        mend(fits, certified);
+        std::erase_if(fits, [](const TreeCandidate& c) { return c.proved == 0; });
+        const auto best =
+            std::ranges::min_element(fits, {}, [](const TreeCandidate& c) { return c.fit.bits; });
         return best == fits.end() ? std::nullopt : std::optional(std::move(*best));
     }
 
-    double most_bits() const { return 8.0 * static_cast<double>(most_bytes_); }
-
-    void mend(Candidate& c, double certified, const Task& task) const {
-        c.proved = mend_tree(c.fit, c.options, target_, certified, most_bits(), task).value_or(0);
+    void mend(std::span<TreeCandidate> fits, double certified) const {
+        mend_trees(fits, target_, certified, 8.0 * static_cast<double>(most_bytes_), task_);
     }
 
     TreeFitOptions options_for(const Shares& shares, double tolerance) const {
@@ -184,14 +173,15 @@ class TreeSearch {
     // An island is one piece, and so must its mesh be. Within the tube a tree may leave bits of surface by
     // themselves: they break no promise, but nobody wants them (a pebble's tree left one of two
     // tolerances). The leaves that they are in are mended like others that are wrong.
-    Outcome prove_tree(Candidate& found, double chord, double tolerance) const {
+    Outcome prove_tree(TreeCandidate& found, double chord, double tolerance) const {
         for (int i = 0;; ++i) {
             Outcome outcome = prove_once(found, chord);
             const std::vector<KnownSide> bits = loose_bits(outcome.mesh);
             if (bits.empty()) return outcome;
             if (i == kMostCleanings) return {};
             repair_set_tree(found.fit, target_.bvh, bits, task_);
-            mend(found, tolerance / frame_.half(), quiet(task_, task_.threads));
+            found.proved = 0;
+            mend({&found, 1}, tolerance / frame_.half());
             if (found.proved == 0) return {};
         }
     }
@@ -212,7 +202,7 @@ class TreeSearch {
         return points;
     }
 
-    Outcome prove_once(const Candidate& found, double chord) const {
+    Outcome prove_once(const TreeCandidate& found, double chord) const {
         Outcome outcome;
         outcome.candidate = "tree";
         outcome.bound_functions = found.proved * frame_.half();

@@ -144,12 +144,11 @@ double price(const RawTree& tree) {
     return tree.bits + 1000.0 * tree.forced;
 }
 
-std::vector<RawTree> build_all(const TreeFit& fit, std::span<const TreeSample> samples,
-                               const std::vector<BuildOptions>& settings, const Task& task) {
-    const SampleTable table(samples, fit.quadrics, task);
+std::vector<RawTree> build_all(const TreeFit& fit, const std::vector<BuildOptions>& settings,
+                               const Task& task) {
     std::vector<RawTree> trees(settings.size());
     parallel_chunks(settings.size(), 1, task, [&](std::size_t i, std::size_t) {
-        trees[i] = build_tree(table, fit.quadrics, fit.tree.box(), settings[i], quiet(task, 1));
+        trees[i] = build_tree(fit.samples, fit.quadrics, fit.tree.box(), settings[i], quiet(task, 1));
     });
     return trees;
 }
@@ -164,8 +163,8 @@ std::vector<BuildOptions> scout(const TreeFit& fit, const Effort& effort, const 
         for (const double weight : effort.single_weights) settings.push_back({power, weight});
     }
     for (const int power : effort.peeled_powers) settings.push_back({.power = power, .peel = true});
-    const std::vector<RawTree> trees =
-        build_all(fit, std::span(fit.samples).first(fit.samples.size() / kScouted), settings, task);
+    for (BuildOptions& setting : settings) setting.most_samples = fit.samples.size() / kScouted;
+    const std::vector<RawTree> trees = build_all(fit, settings, task);
     std::vector<std::size_t> order(settings.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return price(trees[i]); });
@@ -173,13 +172,14 @@ std::vector<BuildOptions> scout(const TreeFit& fit, const Effort& effort, const 
     for (std::size_t k = 0; k < std::min(effort.finalists, order.size()); ++k) {
         finalists.push_back(settings[order[k]]);
         finalists.back().tried = effort.tried;
+        finalists.back().most_samples = BuildOptions{}.most_samples;
     }
     return finalists;
 }
 
 void build(TreeFit& fit, const TreeFitOptions& options, const Task& task) {
     const std::vector<BuildOptions> finalists = scout(fit, effort_of(options.effort), task);
-    std::vector<RawTree> trees = build_all(fit, fit.samples, finalists, task);
+    std::vector<RawTree> trees = build_all(fit, finalists, task);
     const auto best = static_cast<std::size_t>(std::ranges::min_element(trees, {}, price) - trees.begin());
     fit.build = finalists[best];
     fit.raw = std::move(trees[best]);
@@ -209,8 +209,9 @@ void refit_set_tree(TreeFit& fit, const TriangleMesh& mesh, const Bvh& bvh, cons
     const SignedDistance distance(mesh, bvh);
     const SampleOptions sampling{options.tolerance * options.tube_share,
                                  sample_count(effort_of(options.effort), fit), options.seed};
-    fit.samples =
-        sample_sides(mesh, distance, fit.tree.box(), fit.patches, sampling, quiet(task, task.threads));
+    const Task stage = quiet(task, task.threads);
+    fit.samples = SampleTable(sample_sides(mesh, distance, fit.tree.box(), fit.patches, sampling, stage),
+                              fit.quadrics, stage);
     task.report(0.5, "building the tree");
     build(fit, options, quiet(task, task.threads));
     task.report(1, "building the tree");
@@ -218,12 +219,13 @@ void refit_set_tree(TreeFit& fit, const TriangleMesh& mesh, const Bvh& bvh, cons
 
 void repair_set_tree(TreeFit& fit, const Bvh& bvh, std::span<const KnownSide> points, const Task& task) {
     const Box box = fit.tree.box();
+    std::vector<TreeSample> more;
     for (const KnownSide& known : points) {
         if (!box.contains(known.point)) continue;
-        fit.samples.push_back({known.point, fit.patches[bvh.closest(known.point).face], known.inside});
+        more.push_back({known.point, fit.patches[bvh.closest(known.point).face], known.inside});
     }
-    const SampleTable table(fit.samples, fit.quadrics, task);
-    fit.raw = repair_tree(fit.raw, table, fit.quadrics, box, fit.build, task);
+    fit.samples.add(more, fit.quadrics, task);
+    fit.raw = repair_tree(fit.raw, fit.samples, fit.quadrics, box, fit.build, task);
     write_tree(fit);
 }
 

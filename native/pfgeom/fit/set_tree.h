@@ -44,7 +44,7 @@ struct TreeFit {
     RawTree raw;
     std::vector<QuantisedQuadric> quadrics;  ///< that questions may ask, used or not; separators last
     std::vector<std::int32_t> patches;       ///< of each face: its quadric
-    std::vector<TreeSample> samples;
+    SampleTable samples;
     BuildOptions build;
 };
 

@@ -54,7 +54,7 @@ class Builder {
 
   private:
     Members all() const {
-        Members members(samples_.size());
+        Members members(std::min(samples_.size(), options_.most_samples));
         for (std::size_t i = 0; i < members.size(); ++i) members[i] = static_cast<std::int32_t>(i);
         return members;
     }
@@ -334,16 +334,26 @@ RawTree Builder::finish() {
 
 }  // namespace
 
-SampleTable::SampleTable(std::span<const TreeSample> samples, std::span<const QuantisedQuadric> quadrics,
+SampleTable::SampleTable(std::vector<TreeSample> samples, std::span<const QuantisedQuadric> quadrics,
                          const Task& task)
-    : samples_(samples),
-      quadrics_(quadrics.size()),
-      words_((quadrics.size() + 63) / 64),
-      signs_(samples.size() * words_, 0) {
-    parallel_chunks(samples.size(), 1024, task, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
+    : samples_(std::move(samples)), quadrics_(quadrics.size()), words_((quadrics.size() + 63) / 64) {
+    look_at_sides(0, quadrics, task);
+}
+
+void SampleTable::add(std::span<const TreeSample> samples, std::span<const QuantisedQuadric> quadrics,
+                      const Task& task) {
+    const std::size_t first = samples_.size();
+    samples_.insert(samples_.end(), samples.begin(), samples.end());
+    look_at_sides(first, quadrics, task);
+}
+
+void SampleTable::look_at_sides(std::size_t first, std::span<const QuantisedQuadric> quadrics,
+                                const Task& task) {
+    signs_.resize(samples_.size() * words_, 0);
+    parallel_chunks(samples_.size() - first, 1024, task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = first + begin; i < first + end; ++i) {
             for (std::size_t q = 0; q < quadrics.size(); ++q) {
-                const bool positive = quadrics[q].quadric.quadric.value(samples[i].point) >= 0;
+                const bool positive = quadrics[q].quadric.quadric.value(samples_[i].point) >= 0;
                 signs_[i * words_ + q / 64] |= std::uint64_t{positive} << (q % 64);
             }
         }

@@ -12,6 +12,7 @@
 #include "pfgeom/function/set_tree.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,9 +22,13 @@ namespace pfgeom {
 /// evaluated.
 class SampleTable {
   public:
+    SampleTable() = default;
     /// Patches of the samples are indices into `quadrics`.
-    SampleTable(std::span<const TreeSample> samples, std::span<const QuantisedQuadric> quadrics,
+    SampleTable(std::vector<TreeSample> samples, std::span<const QuantisedQuadric> quadrics,
                 const Task& task);
+    /// `quadrics`: the same as before.
+    void add(std::span<const TreeSample> samples, std::span<const QuantisedQuadric> quadrics,
+             const Task& task);
 
     std::size_t size() const { return samples_.size(); }
     std::size_t words() const { return words_; }
@@ -33,8 +38,10 @@ class SampleTable {
     bool positive(std::size_t i, std::size_t q) const { return (signs(i)[q / 64] >> (q % 64) & 1U) != 0; }
 
   private:
-    std::span<const TreeSample> samples_;
-    std::size_t quadrics_, words_;
+    void look_at_sides(std::size_t first, std::span<const QuantisedQuadric> quadrics, const Task& task);
+
+    std::vector<TreeSample> samples_;
+    std::size_t quadrics_ = 0, words_ = 0;
     std::vector<std::uint64_t> signs_;  // bit q of sample i: quadrics[q] >= 0
 };
 
@@ -45,6 +52,7 @@ struct BuildOptions {
     int tried = 1;                ///< so many questions of a cell are tried to the end
     std::size_t most_tried = 64;  ///< unless it has more patches than this
     bool peel = false;            ///< questions with one answer (fit/tree_peel.h) come before all others
+    std::size_t most_samples = std::numeric_limits<std::size_t>::max();  ///< the first ones
 };
 
 /// A tree whose questions count quadrics as the builder was given them.

@@ -62,6 +62,7 @@ class Cutting {
             open.erase(kept, open.end());
         }
         match(done);
+        cells_.open = {};
     }
 
   private:
@@ -133,8 +134,11 @@ bool Cutting::cut_where_cut(const Tetrahedron& t, std::vector<Tetrahedron>& piec
 // Follows the answers down the tree. True at a leaf; at a question with both answers one more edge is cut.
 bool Cutting::advance(Tetrahedron& t, bool may_cut) {
     for (;;) {
-        const PrunedNode& node = tree_.whole()[t.node];
-        if (node.question < 0) return true;
+        const OpenNode node = cells_.open[t.node];
+        if (node.question < 0) {
+            t.node = node.low;
+            return true;
+        }
         const Signs s = signs(t, node.question);
         bool high = s.high;
         if (s.high == s.low) {
@@ -144,7 +148,7 @@ bool Cutting::advance(Tetrahedron& t, bool may_cut) {
             }
             high = high_at_centre(t, node.question);  // either is right
         }
-        t.node = high ? t.node + 1 : node.low;
+        t.node += high ? 1 : node.low;
     }
 }
 
@@ -200,13 +204,13 @@ bool Cutting::high_at_centre(const Tetrahedron& t, std::int32_t question) const 
 
 // What the subtree says in the tetrahedron, going by its corners.
 Side Cutting::examine(std::int32_t node, const Tetrahedron& t) {
-    const PrunedNode& n = tree_.whole()[node];
-    if (n.question < 0) return n.inside ? Side::inside : Side::outside;
+    const OpenNode n = cells_.open[node];
+    if (n.question < 0) return tree_.whole()[n.low].inside ? Side::inside : Side::outside;
     const Signs s = signs(t, n.question);
-    if (s.high != s.low) return examine(s.high ? node + 1 : n.low, t);
-    if (!s.high) return examine(high_at_centre(t, n.question) ? node + 1 : n.low, t);
+    if (s.high != s.low) return examine(node + (s.high ? 1 : n.low), t);
+    if (!s.high) return examine(node + (high_at_centre(t, n.question) ? 1 : n.low), t);
     const Side high = examine(node + 1, t);
-    return high != Side::both && high == examine(n.low, t) ? high : Side::both;
+    return high != Side::both && high == examine(node + n.low, t) ? high : Side::both;
 }
 
 }  // namespace

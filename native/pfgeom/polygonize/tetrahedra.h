@@ -11,7 +11,7 @@ namespace pfgeom {
 
 struct Tetrahedron {
     std::array<std::int32_t, 4> vertex{};  ///< det(v1-v0, v2-v0, v3-v0) > 0
-    std::int32_t node = 0;                 ///< of the tree: all above it is answered here
+    std::int32_t node = 0;                 ///< of a tree: what is still to be asked
     std::int32_t level = 0;                ///< times it was halved; three halve its edges
 };
 
@@ -27,7 +27,6 @@ class TetEdgeTable {
     /// -1 where there is nothing.
     std::int32_t find(std::int32_t a, std::int32_t b) const;
     void insert(std::int32_t a, std::int32_t b, std::int32_t vertex);  ///< where there is nothing yet
-    void clear();
 
   private:
     struct Entry {
@@ -35,8 +34,12 @@ class TetEdgeTable {
         std::int32_t vertex = -1;  // -1: free
     };
     std::size_t slot_of(std::uint64_t key) const;
+    void note(std::uint64_t key);
 
     std::vector<Entry> slots_;
+    // A bit for each hash that is in: most edges that are looked up are not, and an eighth of a byte stays in
+    // the cache where an entry does not.
+    std::vector<std::uint64_t> noted_;
     std::size_t used_ = 0;
 };
 

@@ -153,6 +153,7 @@ Label Boundary::label_of(const Triangle& face, std::int32_t in, std::int32_t out
     double least = std::numeric_limits<double>::infinity();
     Label best = 0;
     const auto consider = [&](std::int32_t node, bool inwards) {
+        if (least == 0) return;
         const std::int32_t question = tree_.whole()[node].question;
         const double d = distance(question, face);
         if (!(d < least)) return;

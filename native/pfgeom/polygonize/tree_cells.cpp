@@ -43,6 +43,13 @@ double slope_at_zero(const Quadric& q, const Vec3& p, const Vec3& gradient, cons
 
 enum class Side : std::int8_t { outside, inside, both };
 
+// Of the tree whose root it is: to the leaf that one comes to on low sides alone.
+std::size_t size_of(const std::vector<OpenNode>& nodes, std::size_t root) {
+    std::size_t last = root;
+    while (nodes[last].question >= 0) last += nodes[last].low;
+    return last + 1 - root;
+}
+
 class Refinement {
   public:
     Refinement(const TreePruner& tree, const PolygonizeOptions& options, double chord, const Task& task)
@@ -57,7 +64,7 @@ class Refinement {
     TreeCells run() {
         std::vector<Tetrahedron> open = cube();
         while (!open.empty()) {
-            settle(open);
+            for (; !open.empty(); open.pop_back()) settle(open.back());
             open = take_unmatched();
         }
         out_.zeros.assign(out_.position.size(), kNoZeros);
@@ -65,12 +72,19 @@ class Refinement {
     }
 
   private:
+    // With what is open there at `node` of tree_.
+    struct Visit {
+        Tetrahedron cell;
+        std::size_t end = 0;  // of what is in use of open_
+    };
+
     std::vector<Tetrahedron> cube();
-    void settle(std::vector<Tetrahedron>& open);
+    void settle(const Tetrahedron& whole);
+    void keep(Tetrahedron t);
     std::vector<Tetrahedron> take_unmatched();
     bool unmatched(const Tetrahedron& t) const;
     std::array<Tetrahedron, 2> halve(const Tetrahedron& t);
-    Side examine(std::int32_t node, const std::array<Vec3, 4>& p, double& deviation) const;
+    Side prune(std::size_t node, const std::array<Vec3, 4>& p, double& deviation);
     int side(std::int32_t question, const std::array<Vec3, 4>& p, double& bent) const;
     double deviation_of(std::int32_t question, const std::array<Vec3, 4>& p, double bent) const;
 
@@ -79,12 +93,19 @@ class Refinement {
     double chord_;
     const Task& task_;
     std::vector<double> rounding_;  // by question
+    std::vector<OpenNode> open_;    // in the cells on the way to the one that is looked at
+    std::size_t steps_ = 0;
     TreeCells out_;
     TetEdgeTable middles_;
 };
 
 // Kuhn's: one for each order of the axes, all along the diagonal from the low to the high corner.
 std::vector<Tetrahedron> Refinement::cube() {
+    const PrunedTree& whole = tree_.whole();
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(whole.size()); ++i) {
+        const PrunedNode& n = whole[i];
+        out_.open.push_back({n.question, n.question < 0 ? i : n.low - i});
+    }
     for (int i = 0; i < 8; ++i) {
         const Vec3 corner{(i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0};
         out_.position.push_back(corner * (1 + kMargin));
@@ -98,29 +119,37 @@ std::vector<Tetrahedron> Refinement::cube() {
     return six;
 }
 
-// Halves the tetrahedra until each is decided, and dropped, or fine enough.
-void Refinement::settle(std::vector<Tetrahedron>& open) {
-    for (std::size_t steps = 0; !open.empty(); ++steps) {
-        if (steps % 1024 == 0) task_.check();
-        Tetrahedron t = open.back();
-        open.pop_back();
+// Halves the tetrahedron until each part is decided, and dropped, or fine enough.
+void Refinement::settle(const Tetrahedron& whole) {
+    open_.assign(out_.open.begin() + whole.node,
+                 out_.open.begin() + whole.node + size_of(out_.open, whole.node));
+    std::vector<Visit> visits{{whole, open_.size()}};
+    visits[0].cell.node = 0;
+    while (!visits.empty()) {
+        if (++steps_ % 1024 == 0) task_.check();
+        auto [t, end] = visits.back();
+        visits.pop_back();
+        open_.resize(end);
         std::array<Vec3, 4> p;
         for (std::size_t i = 0; i < 4; ++i) p[i] = out_.position[t.vertex[i]];
-        double bent = 0, deviation = 0;
-        for (int s = 1; tree_.whole()[t.node].question >= 0;
-             t.node = s > 0 ? t.node + 1 : tree_.whole()[t.node].low) {
-            s = side(tree_.whole()[t.node].question, p, bent);
-            if (s == 0) break;
-        }
-        if (examine(t.node, p, deviation) != Side::both) continue;
+        double deviation = 0;
+        if (prune(t.node, p, deviation) != Side::both) continue;
+        t.node = static_cast<std::int32_t>(end);
         const bool coarse =
             t.level < 3 * options_.min_depth || (t.level < 3 * options_.max_depth && deviation > chord_);
         if (!coarse && !unmatched(t)) {
-            out_.cells.push_back(t);
+            keep(t);
             continue;
         }
-        for (const Tetrahedron& half : halve(t)) open.push_back(half);
+        for (const Tetrahedron& half : halve(t)) visits.push_back({half, open_.size()});
     }
+}
+
+void Refinement::keep(Tetrahedron t) {
+    const auto open = open_.begin() + t.node;
+    t.node = static_cast<std::int32_t>(out_.open.size());
+    out_.open.insert(out_.open.end(), open, open_.end());
+    out_.cells.push_back(t);
 }
 
 bool Refinement::unmatched(const Tetrahedron& t) const {
@@ -169,15 +198,22 @@ std::array<Tetrahedron, 2> Refinement::halve(const Tetrahedron& t) {
 }
 
 // What the subtree says in the tetrahedron; if both, `deviation` is at least that of the questions that
-// matter.
-Side Refinement::examine(std::int32_t node, const std::array<Vec3, 4>& p, double& deviation) const {
-    const PrunedNode& n = tree_.whole()[node];
-    if (n.question < 0) return n.inside ? Side::inside : Side::outside;
+// matter. What is open of it goes to the end of open_.
+Side Refinement::prune(std::size_t node, const std::array<Vec3, 4>& p, double& deviation) {
+    const OpenNode n = open_[node];
+    if (n.question < 0) {
+        open_.push_back(n);
+        return tree_.whole()[n.low].inside ? Side::inside : Side::outside;
+    }
     double bent = 0;
     const int s = side(n.question, p, bent);
-    if (s != 0) return examine(s > 0 ? node + 1 : n.low, p, deviation);
+    if (s != 0) return prune(s > 0 ? node + 1 : node + n.low, p, deviation);
     double within = deviation_of(n.question, p, bent);
-    const Side high = examine(node + 1, p, within), low = examine(n.low, p, within);
+    const std::size_t at = open_.size();
+    open_.push_back(n);
+    const Side high = prune(node + 1, p, within);
+    open_[at].low = static_cast<std::int32_t>(open_.size() - at);
+    const Side low = prune(node + n.low, p, within);
     if (high == low && high != Side::both) return high;
     deviation = std::max(deviation, within);
     return Side::both;

@@ -13,10 +13,20 @@ namespace pfgeom {
 using Zeros = std::array<std::int32_t, 6>;
 constexpr Zeros kNoZeros{-1, -1, -1, -1, -1, -1};
 
+/// Of what is open in a cell: the tree without the questions that have one answer all over it. Depth first,
+/// the high child next to its parent.
+struct OpenNode {
+    std::int32_t question = -1;  ///< -1: a leaf
+    std::int32_t low = 0;        ///< how far on the low child stands; of a leaf: its node of the whole tree
+};
+
 struct TreeCells {
     std::vector<Vec3> position;
-    std::vector<Zeros> zeros;        ///< by vertex
-    std::vector<Tetrahedron> cells;  ///< where there is none, the tree says the same all around
+    std::vector<Zeros> zeros;  ///< by vertex
+    /// Where there is none, the tree says the same all around. Their `node` is the root of what is open in
+    /// them; once they are cut, their leaf of the whole tree.
+    std::vector<Tetrahedron> cells;
+    std::vector<OpenNode> open;
 
     /// Of a vertex from a question's zero set, to first order; positive on the high side.
     double distance(const TreePruner& tree, std::int32_t vertex, std::int32_t question) const;

@@ -46,7 +46,8 @@ void search_cells(const TreeBoundProblem& problem, TreeBoundFindings& total) {
     const std::int64_t share = problem.options.max_cells / static_cast<std::int64_t>(kBatch);
     for (std::size_t begin = 0; begin < order.size(); begin += kBatch) {
         if (!total.sides_defined) return;
-        if (total.counts.cells > problem.options.max_cells) {
+        if (total.counts.cells > problem.options.max_cells ||
+            total.counts.unresolved > problem.options.max_unresolved) {
             total.complete = false;
             return;
         }

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace pfgeom {
@@ -22,16 +23,19 @@ struct LabelledPoint {
 };
 
 struct TreeBoundOptions {
+    static constexpr std::int64_t kAnyNumber = std::numeric_limits<std::int64_t>::max();
+
     /// Cells at the border of the tube are not split below this share of the tolerance; what they leave open
     /// is added to `proved`. 1/64 proves the tolerance itself on clean models; 1/16 while repairing.
     double finest = 1.0 / 64;
     /// A cell outside the tube in which the tree might give both labels, yet no wrong point is found, is
     /// given up at this share of the tolerance.
     double give_up = 1.0 / 32;
-    std::int64_t max_cells = 32'000'000;  ///< then: not certified
-    std::size_t per_leaf = 500;           ///< counter-examples kept of each wrong leaf, drawn evenly
-    std::size_t labels = 60'000;          ///< labelled points kept, drawn evenly
-    bool mesh_to_model = true;            ///< false: only that the tree is right outside the tube
+    std::int64_t max_cells = 32'000'000;       ///< then: not certified
+    std::int64_t max_unresolved = kAnyNumber;  ///< cells given up; then: not certified
+    std::size_t per_leaf = 500;                ///< counter-examples kept of each wrong leaf, drawn evenly
+    std::size_t labels = 60'000;               ///< labelled points kept, drawn evenly
+    bool mesh_to_model = true;                 ///< false: only that the tree is right outside the tube
 };
 
 struct TreeBoundCounts {
@@ -52,7 +56,8 @@ struct TreeBound {
     /// At least the tolerance. Without a certificate: of those cells and pieces that could be decided.
     double proved = 0;
     bool sides_defined = true;  ///< false: the mesh is no closed, oriented manifold without crossings
-    bool complete = true;       ///< false: not all was looked at: too many cells, or enough found wrong
+    bool complete =
+        true;  ///< false: not all was looked at: too many cells, or enough found wrong or given up
 
     std::vector<LabelledPoint> counter_examples;  ///< further away than the tolerance, on the wrong side
     std::vector<LabelledPoint> missed;  ///< near mesh points without a sign change: the label missing

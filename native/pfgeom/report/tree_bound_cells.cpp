@@ -172,7 +172,8 @@ void CellSearch::make_child(const TreeBoundCell& parent, int corner, TreeBoundCe
 
 void CellSearch::descend(TreeBoundCell& cell, std::size_t level) {
     if (closed(cell)) return;
-    if (--cells_left_ < 0 || found_.counts.wrong > kEnoughWrong) {
+    if (--cells_left_ < 0 || found_.counts.wrong > kEnoughWrong ||
+        found_.counts.unresolved > problem_.options.max_unresolved) {
         found_.complete = false;
         return;
     }

@@ -12,7 +12,7 @@ namespace {
 
 // Samples that the tree gets wrong.
 std::size_t wrong_of(const TreeFit& fit) {
-    return wrong_samples(fit.raw, SampleTable(fit.samples, fit.quadrics, {}));
+    return wrong_samples(fit.raw, fit.samples);
 }
 
 TreeFitOptions within(double tolerance, int effort = 1) {
