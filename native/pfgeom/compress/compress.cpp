@@ -119,8 +119,9 @@ class Compressor {
     std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) const {
         const MeshEstimate estimate = estimate_mesh(goal, task);
         std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
-        if (best && best->bytes < estimate.least && goal.effort != Effort::best) return best;
-        if (goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
+        const bool far_below = best && best->bytes < estimate.least && goal.effort != Effort::best;
+        if (!far_below && goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
+        // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy.
         take_cheaper(try_hierarchy(goal, best ? best->bytes : kNoLimit, task), best);
         return best;
     }
