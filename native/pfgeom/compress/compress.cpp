@@ -121,8 +121,9 @@ class Compressor {
         std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
         const bool far_below = best && best->bytes < estimate.least && goal.effort != Effort::best;
         if (!far_below && goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
-        // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy.
-        take_cheaper(try_hierarchy(goal, best ? best->bytes : kNoLimit, task), best);
+        // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
+        // search of that starts too fine.
+        take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kNoLimit, task), best);
         return best;
     }
 

@@ -11,7 +11,10 @@
 namespace pfgeom {
 namespace {
 
-constexpr double kReach = 8;    // how far a vertex may be moved, in tolerances
+constexpr double kReach = 8;  // how far a vertex may be moved, in tolerances
+// The same where no triangle turns over: the bottom of a valley and the tip of a pit between ellipsoids lie
+// so far beyond what cutting cells found of them.
+constexpr double kFarReach = 64;
 constexpr double kShort = 0.1;  // edges that may be dropped across creases, in tolerances
 constexpr int kRounds = 40;     // of splits
 constexpr int kFlips = 8;       // at most as many times the edges: rounding could make it endless
@@ -39,6 +42,8 @@ class Adapter {
   private:
     std::vector<Label> labels_around(std::int32_t h) const;
     void place_vertices();
+    bool place_exactly(std::int32_t h, std::span<const Label> labels);
+    bool faces_outside_at(std::int32_t h, const Vec3& p) const;
     void drop_short_edges();
     void merge_edges(double limit);
     void merge_once(double limit);
@@ -46,12 +51,15 @@ class Adapter {
     void split_edges();
     double excess(std::int32_t h) const;
     bool split(std::int32_t h);
+    bool split_at(std::int32_t h, const Vec3& middle);
+    void place_waiting();
 
     const LabelSurface& surface_;
     const AdaptOptions& options_;
     LabelledMesh& m_;
     CreaseTests tests_;
     const Task& task_;
+    std::vector<std::int32_t> waiting_;  // half-edges from vertices that are not yet where they belong
 };
 
 // Of the faces around from(h), each once.
@@ -73,9 +81,35 @@ void Adapter::place_vertices() {
         const std::int32_t v = m_.mesh.from(h);
         if (placed[v]) continue;
         placed[v] = 1;
-        surface_.project(labels_around(h), kReach * options_.face_tolerance, options_.accuracy,
-                         m_.mesh.position[v]);
+        const std::vector<Label> labels = labels_around(h);
+        if (labels.size() > 1 && place_exactly(h, labels)) continue;
+        surface_.project(labels, kReach * options_.face_tolerance, options_.accuracy, m_.mesh.position[v]);
     }
+}
+
+// Onto the curve or corner however flat its quadrics cross, and however far it is. False, and nothing done,
+// where a triangle would turn over.
+bool Adapter::place_exactly(std::int32_t h, std::span<const Label> labels) {
+    Vec3& p = m_.mesh.position[m_.mesh.from(h)];
+    Vec3 foot = p;
+    if (!surface_.project(labels, kFarReach * options_.face_tolerance, options_.accuracy, foot,
+                          LabelSurface::kLeastSineOfCreases) ||
+        !faces_outside_at(h, foot))
+        return false;
+    p = foot;
+    return true;
+}
+
+// The triangles around from(h), if it were there.
+bool Adapter::faces_outside_at(std::int32_t h, const Vec3& p) const {
+    std::int32_t spoke = h;
+    do {
+        if (!tests_.faces_outside(m_.label_at(spoke), p, m_.mesh.position[m_.mesh.to(spoke)],
+                                  m_.mesh.position[m_.mesh.apex(spoke)], 0, 0))
+            return false;
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return true;
 }
 
 // Corners that cuts have torn apart, and strips of a seam's width.
@@ -134,6 +168,7 @@ double Adapter::excess(std::int32_t h) const {
 
 // In rounds, the highest edges first.
 void Adapter::split_edges() {
+    waiting_.clear();
     for (int round = 0; round < kRounds; ++round) {
         std::vector<std::pair<double, std::int32_t>> high;
         for (std::int32_t h = 0; h < m_.mesh.half_edges(); ++h) {
@@ -150,17 +185,33 @@ void Adapter::split_edges() {
         for (const auto& [e, h] : high)
             if (excess(h) == -e) any |= split(h);
         if (!any) return;
+        place_waiting();
         flip_edges();
     }
 }
 
-// At the arc's middle. False, and nothing done, where a triangle would turn over.
+// Once there is room.
+void Adapter::place_waiting() {
+    std::erase_if(waiting_, [&](std::int32_t h) { return place_exactly(h, labels_around(h)); });
+}
+
+// At the arc's middle. Where a triangle would turn over, half as far from the chord: its neighbours are
+// split, too, and make room. False if that is too far as well.
 bool Adapter::split(std::int32_t h) {
     const std::array<Label, 2> labels{m_.label_at(h), m_.label_at(m_.mesh.twin(h))};
     const Vec3 a = m_.mesh.position[m_.mesh.from(h)], b = m_.mesh.position[m_.mesh.to(h)];
-    Vec3 middle = (a + b) * 0.5;
+    const Vec3 chord = (a + b) * 0.5;
+    Vec3 arc = chord;
     const std::span<const Label> used(labels.data(), m_.crease(h) ? 2 : 1);
-    if (!surface_.project(used, norm(b - a) / 2, options_.accuracy, middle)) return false;
+    if (!surface_.project(used, norm(b - a) / 2, options_.accuracy, arc, LabelSurface::kLeastSineOfCreases))
+        return false;
+    if (split_at(h, arc)) return true;
+    if (!m_.crease(h) || !split_at(h, (chord + arc) * 0.5)) return false;
+    waiting_.push_back(m_.mesh.half_edges() - 6);  // from the new vertex on, along the crease
+    return true;
+}
+
+bool Adapter::split_at(std::int32_t h, const Vec3& middle) {
     for (const std::int32_t e : {h, m_.mesh.twin(h)}) {
         const Vec3 from = m_.mesh.position[m_.mesh.from(e)], to = m_.mesh.position[m_.mesh.to(e)];
         const Vec3 apex = m_.mesh.position[m_.mesh.apex(e)];

@@ -33,7 +33,7 @@ double CreaseTests::distance_to_curve(Label one, Label other, const Vec3& p, dou
     constexpr double kAccuracy = 1e-3;  // of the edge
     const std::array<Label, 2> both{one, other};
     Vec3 foot = p;
-    surface_.project(both, reach, kAccuracy * reach, foot);
+    surface_.project(both, reach, kAccuracy * reach, foot, LabelSurface::kLeastSineOfCreases);
     return norm(foot - p);
 }
 

@@ -4,14 +4,11 @@ namespace pfgeom {
 namespace {
 
 constexpr int kSteps = 8;  // of Newton; two are the rule
-// Sine of the least angle between zero sets at which their intersection is looked for. At smaller ones it is
-// far away, or not there, and the first of them is within the tolerance of the others.
-constexpr double kLeastSine = 0.05;
 
 }  // namespace
 
 // Newton's step for all the labels, by Gram and Schmidt: the shortest that solves the linearised equations.
-Vec3 LabelSurface::step(std::span<const Label> labels, const Vec3& p) const {
+Vec3 LabelSurface::step(std::span<const Label> labels, const Vec3& p, double least_sine) const {
     std::array<Vec3, 3> basis;
     std::size_t n = 0;
     Vec3 d;
@@ -22,7 +19,7 @@ Vec3 LabelSurface::step(std::span<const Label> labels, const Vec3& p) const {
         Vec3 u = g;
         for (std::size_t i = 0; i < n; ++i) u -= basis[i] * dot(u, basis[i]);
         const double sine = norm(u);
-        if (!(sine > kLeastSine)) continue;
+        if (!(sine > least_sine)) continue;
         u = u / sine;
         d -= u * ((quadric(label).value(p) / slope + dot(g, d)) / sine);
         basis[n++] = u;
@@ -31,10 +28,11 @@ Vec3 LabelSurface::step(std::span<const Label> labels, const Vec3& p) const {
     return d;
 }
 
-bool LabelSurface::project(std::span<const Label> labels, double reach, double accuracy, Vec3& p) const {
+bool LabelSurface::project(std::span<const Label> labels, double reach, double accuracy, Vec3& p,
+                           double least_sine) const {
     Vec3 at = p;
     for (int i = 0; i < kSteps; ++i) {
-        const Vec3 d = step(labels, at);
+        const Vec3 d = step(labels, at, least_sine);
         at += d;
         if (!(squared_norm(at - p) <= reach * reach)) return false;
         if (squared_norm(d) > accuracy * accuracy) continue;
