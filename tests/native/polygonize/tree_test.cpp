@@ -136,6 +136,22 @@ TEST(Tree, CreaseOfTwoSpheres) {
     }
 }
 
+// Where three balls meet at so small an angle that their common point is far from what is near all three.
+TEST(Tree, TipsOfNarrowPits) {
+    constexpr double kRadius = 0.4, kTolerance = 1e-3;
+    for (const double height : {0.05, 0.02, 0.01}) {
+        const double off = std::sqrt(kRadius * kRadius - height * height);
+        RegionPtr balls = leaf(false);
+        for (const Vec3& way :
+             {Vec3{1, 0, 0}, Vec3{-0.5, std::sqrt(0.75), 0}, Vec3{-0.5, -std::sqrt(0.75), 0}})
+            balls = either(balls, where(turned(way * off, kRadius)));
+        const TriangleMesh mesh = mesh_of(balls, kTolerance);
+        ASSERT_TRUE(is_closed_manifold(mesh));
+        for (const double z : {height, -height})
+            EXPECT_LT(nearest_vertex(mesh, {0, 0, z}), 0.1 * kTolerance) << height;
+    }
+}
+
 TEST(Tree, BitsBesideTheShapeAreLeftOut) {
     const auto pieces = [](double radius) {
         const RegionPtr both = either(where(turned({-0.3, 0, 0}, 0.5)), where(turned({0.8, 0, 0}, radius)));
