@@ -61,6 +61,16 @@ def test_car_has_83_ellipsoids_and_about_136_000_triangles(car):
     assert 3e-4 * measure.diagonal(mesh.vertices) >= car.CHORD
 
 
+def test_paper_car_is_exact_and_has_83_surfaces_and_two_trims(car):
+    parts = car.car_parts()
+    mesh = car.make_paper_car(parts)
+    assert (len(mesh.faces), len(mesh.vertices)) == (136_306, 68_418)
+    model = pfgeom.compress(mesh, tolerance=car.TOLERANCE)
+    assert str(model.functions) == "83 + 2 + 0"
+    assert model.certified
+    assert model.nbytes <= 1500
+
+
 def test_car_of_another_seed_is_alike(car):
     drawn, other = car.car_parts(), car.car_parts(3)
     assert other == car.car_parts(3)

@@ -27,7 +27,7 @@ struct Goal {
 
 /// A representation that was written, read back, polygonized and measured.
 struct Outcome {
-    std::string candidate;            ///< "quadric", "tree", "hierarchy" or "mesh"
+    std::string candidate;            ///< "quadric", "sheet", "tree", "hierarchy" or "mesh"
     std::vector<Function> functions;  ///< of the one object; its nodes count from 0
     Object object;
     std::size_t bytes = 0;  ///< as a file of its own
@@ -39,6 +39,8 @@ struct Outcome {
 
 /// One ellipsoid.
 std::optional<Outcome> try_quadric(const Goal& goal, const Task& task);
+/// One quadric cut by another, for an island with a border.
+std::optional<Outcome> try_sheet(const Goal& goal, const Task& task);
 /// A set-operation tree over quadrics, for a closed island that is made of them. Gives up when it needs more
 /// than `most_bytes`.
 std::optional<Outcome> try_tree(const Goal& goal, std::size_t most_bytes, const Task& task);

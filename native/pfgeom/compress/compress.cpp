@@ -18,6 +18,8 @@ constexpr std::size_t kQuickMesh = 40'000;
 constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
 // Fewer faces than this are not worth a hierarchy.
 constexpr std::size_t kLeastFaces = 100;
+// Nor are fewer than this worth a sheet, which takes some 40 bytes.
+constexpr std::size_t kLeastFacesOfSheet = 16;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
 // and the earlier ones did not, all is done again within these shares of it.
 constexpr double kShares[] = {1.0, 0.95, 0.7};
@@ -89,6 +91,7 @@ class Compressor {
 
     // The cheapest candidate that holds; nothing: the island goes into the common mesh part.
     std::optional<Outcome> fit_island(const Island& island, const Task& task) const {
+        if (!island.closed && island.manifold && island.oriented) return fit_open_island(island, task);
         if (!island.closed || !island.oriented || island.faces.size() < 8) return {};
         const TriangleMesh mesh = extract_island(prepared_, island);
         const Bvh bvh(mesh);
@@ -96,6 +99,14 @@ class Compressor {
         if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
         if (mesh.faces.size() < kLeastFaces) return {};
         return goal.metric == Metric::max ? fit_by_max(goal, task) : fit_by_rms(goal, task);
+    }
+
+    // What is no sheet goes into the mesh part with all the others.
+    std::optional<Outcome> fit_open_island(const Island& island, const Task& task) const {
+        if (island.faces.size() < kLeastFacesOfSheet) return {};
+        const TriangleMesh mesh = extract_island(prepared_, island);
+        const Bvh bvh(mesh);
+        return try_sheet(goal_of(mesh, bvh, false), task);
     }
 
     // A tree comes first: where a shape is made of quadrics nothing else comes near, and neither needs to be
@@ -174,7 +185,8 @@ class Compressor {
         const auto offset = static_cast<std::int32_t>(model_.functions.size());
         auto* solid = std::get_if<Solid>(&object.shape);
         auto* tree = std::get_if<SetTree>(&object.shape);
-        if (island.signed_volume < 0 && outer >= 0) {
+        auto* sheet = std::get_if<Sheet>(&object.shape);
+        if (island.closed && island.signed_volume < 0 && outer >= 0) {
             object.cavity_of = outer;  // then the solid is the hollow itself
             if (solid != nullptr) solid->nodes.pop_back();
             if (tree != nullptr) tree->complement = false;
@@ -184,6 +196,7 @@ class Compressor {
                 if (node.kind == SetNode::Kind::function) node.a += offset;
             }
         }
+        if (sheet != nullptr) sheet->surface += offset, sheet->trim += offset;
         for (Function& f : chosen_[i]->functions) model_.functions.push_back(f);
         model_.objects.push_back(std::move(object));
         return static_cast<std::int32_t>(model_.objects.size()) - 1;

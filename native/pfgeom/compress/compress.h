@@ -27,7 +27,7 @@ struct CompressOptions {
 /// What became of one island.
 struct IslandReport {
     std::int64_t faces = 0;
-    std::string candidate;  ///< "quadric", "tree", "hierarchy" or "mesh"
+    std::string candidate;  ///< "quadric", "sheet", "tree", "hierarchy" or "mesh"
     double bytes = 0;       ///< estimated: objects share one stream
 };
 

@@ -63,6 +63,15 @@ void turn_faces(TriangleMesh& mesh) {
     for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
 }
 
+TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const PolygonizeOptions& options,
+                           const Task& task) {
+    const Function& surface = model.functions[static_cast<std::size_t>(sheet.surface)];
+    const Function& trim = model.functions[static_cast<std::size_t>(sheet.trim)];
+    if (!surface.is_quadric() || !trim.is_quadric())
+        throw InvalidInput("sheets of functions with perturbations cannot be polygonized yet");
+    return polygonize_sheet(surface.base, trim.base, options, task);
+}
+
 // A complement fills the cube; its surface is that of its operand, with the faces turned.
 TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
                            const Task& task) {
@@ -80,7 +89,7 @@ TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshO
         complement = tree->complement;
         mesh = polygonize(*tree, how, task);
     } else {
-        throw InvalidInput("sheets cannot be polygonized yet");
+        mesh = mesh_of_sheet(model, std::get<Sheet>(object.shape), how, task);
     }
     for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
     if (complement || object.cavity_of >= 0) turn_faces(mesh);

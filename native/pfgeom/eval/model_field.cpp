@@ -22,6 +22,16 @@ Solid without_outer_complement(const Solid& solid) {
     return inner;
 }
 
+// A sheet as the solid that is empty around it: min(-|surface|, trim), which is zero on the sheet alone.
+Solid nothing_but(const Sheet& sheet) {
+    using Kind = SetNode::Kind;
+    return {{{Kind::function, sheet.surface},
+             {Kind::complement, 0},
+             {Kind::intersect, 0, 1},
+             {Kind::function, sheet.trim},
+             {Kind::intersect, 2, 3}}};
+}
+
 // Curved faces are divided until they are this share of the default mesh's chord tolerance from the surface.
 constexpr double kChordShare = 0.25;
 
@@ -38,10 +48,12 @@ struct ModelField::Part {
 
     Part(const Model& model, const Object& object)
         : frame(object.frame), copies(object.instances), cavity_of(object.cavity_of) {
+        const Vec3 h{frame.half(), frame.half(), frame.half()};
+        box = {frame.centre() - h, frame.centre() + h};
         if (const auto* s = std::get_if<Solid>(&object.shape)) {
             solid = std::make_unique<SolidField>(model, without_outer_complement(*s));
-            const Vec3 h{frame.half(), frame.half(), frame.half()};
-            box = {frame.centre() - h, frame.centre() + h};
+        } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
+            solid = std::make_unique<SolidField>(model, nothing_but(*sheet));
         } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
             solid = std::make_unique<TreeField>(*tree);
             box = {frame.to_world(tree->box().lo), frame.to_world(tree->box().hi)};

@@ -19,16 +19,18 @@ bool is_ellipsoid(const Quadric& q) {
     return a > 1e-9 && minor2 > 1e-12 && minor3 > 1e-15;
 }
 
-// The gradient's length is one on average on the surface; coefficients are multiples of the step.
-Quadric scaled_and_rounded(Quadric q, const FitTarget& target, double step) {
+}  // namespace
+
+Quadric scaled_and_rounded(Quadric q, std::span<const Vec3> points, double step) {
     double length = 0;
-    for (const Vec3& p : target.points)
-        length += norm(q.gradient(p)) / static_cast<double>(target.points.size());
+    for (const Vec3& p : points) length += norm(q.gradient(p)) / static_cast<double>(points.size());
     for (double& c : q.c) c = std::floor(c / length / step + 0.5) * step;
     return q;
 }
 
-}  // namespace
+double first_order_distance(const Quadric& q, const Vec3& p) {
+    return std::abs(q.value(p)) / std::max(norm(q.gradient(p)), 1e-6);
+}
 
 std::optional<QuadricFit> fit_quadric(const FitTarget& target, double step) {
     Moments moments;
@@ -37,12 +39,11 @@ std::optional<QuadricFit> fit_quadric(const FitTarget& target, double step) {
     const Quadric raw = moments.solve(kNormalWeight);
     if (!std::all_of(raw.c.begin(), raw.c.end(), [](double c) { return std::isfinite(c); })) return {};
     if (!is_ellipsoid(raw)) return {};
-    QuadricFit fit{scaled_and_rounded(raw, target, step)};
+    QuadricFit fit{scaled_and_rounded(raw, target.points, step)};
     if (!is_ellipsoid(fit.quadric)) return {};
     double sum = 0;
     for (const Vec3& p : target.points) {
-        const double length = std::max(norm(fit.quadric.gradient(p)), 1e-6);
-        const double e = std::abs(fit.quadric.value(p)) / length;
+        const double e = first_order_distance(fit.quadric, p);
         sum += e * e;
         fit.max = std::max(fit.max, e);
     }

@@ -63,6 +63,9 @@ struct Function {
     HierarchyHead head;  ///< meaningful if there are levels
     std::vector<Level> levels;
 
+    /// Without perturbations.
+    bool is_quadric() const { return perturbations.empty() && levels.empty(); }
+
     friend bool operator==(const Function&, const Function&) = default;
 };
 

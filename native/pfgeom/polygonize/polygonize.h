@@ -35,4 +35,9 @@ TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& optio
 /// cells; those thinner than the tolerance may have holes where they are bent.
 TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task = {});
 
+/// The zero set of `surface` in the cube where `trim` is >= 0. Its border, except where the cube ends it,
+/// lies on both zero sets. The rest as for trees.
+TriangleMesh polygonize_sheet(const Quadric& surface, const Quadric& trim, const PolygonizeOptions& options,
+                              const Task& task = {});
+
 }  // namespace pfgeom

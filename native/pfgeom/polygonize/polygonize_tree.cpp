@@ -66,11 +66,25 @@ TriangleMesh without_bits(TriangleMesh mesh, double thickness) {
     return mesh;
 }
 
-}  // namespace
+// What the trim leaves of the solid below the surface.
+SetTree solid_of_sheet(const Quadric& surface, const Quadric& trim) {
+    SetTree tree;
+    tree.resolution = 8;
+    constexpr std::int32_t kWide = 129 << 2;  // the cube and a 128th, which cells reach beyond
+    tree.low = {-kWide, -kWide, -kWide};
+    tree.high = {kWide, kWide, kWide};
+    tree.quadrics.resize(2);
+    tree.quadrics[0].quadric = surface;
+    tree.quadrics[1].quadric = trim;
+    tree.nodes.resize(5);
+    tree.nodes[0] = {.kind = TreeNode::Kind::ask, .quadric = 0, .high = 1, .low = 4};
+    tree.nodes[1] = {.kind = TreeNode::Kind::ask, .quadric = 1, .high = 2, .low = 3};
+    tree.nodes[2].kind = TreeNode::Kind::inside;
+    return tree;
+}
 
-TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task) {
+LabelledMesh labelled_mesh_of(const TreePruner& pruner, const PolygonizeOptions& options, const Task& task) {
     check(options);
-    const TreePruner pruner(tree);
     LabelledMesh mesh;
     {
         TreeCells cells = cells_near_surface(pruner, options, kCellChord * options.tolerance, task);
@@ -87,7 +101,25 @@ TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, c
                                      .max_faces = options.max_faces};
     adapt_creases(LabelSurface(pruner), adapt_options, mesh, task);
     task.report(1, "triangles");
+    return mesh;
+}
+
+}  // namespace
+
+TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task) {
+    LabelledMesh mesh = labelled_mesh_of(TreePruner(tree), options, task);
     return without_bits({std::move(mesh.mesh.position), mesh.mesh.faces()}, kBit * options.tolerance);
+}
+
+TriangleMesh polygonize_sheet(const Quadric& surface, const Quadric& trim, const PolygonizeOptions& options,
+                              const Task& task) {
+    const TreePruner pruner(solid_of_sheet(surface, trim));
+    LabelledMesh solid = labelled_mesh_of(pruner, options, task);
+    TriangleMesh sheet{std::move(solid.mesh.position), {}};
+    for (std::size_t f = 0; f < solid.label.size(); ++f)
+        if (pruner.quadric(solid.label[f] / 2) == surface) sheet.faces.push_back(solid.mesh.faces()[f]);
+    compact_vertices(sheet);
+    return sheet;
 }
 
 }  // namespace pfgeom
