@@ -1,0 +1,54 @@
+// Rays against a solid or a sheet: an octree of cells, each with the functions that change their sign in it
+// and their live perturbations.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/function/frame.h"
+#include "pfgeom/render/cell_function.h"
+#include "pfgeom/render/folded_solid.h"
+#include "pfgeom/render/ray_octree.h"
+#include "pfgeom/render/ray_target.h"
+
+#include <vector>
+
+namespace pfgeom {
+
+class SolidTarget final : public RayTarget {
+  public:
+    SolidTarget(const Model& model, const Solid& solid, const Frame& frame, const Task& task);
+    SolidTarget(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task);
+
+    SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
+    std::vector<Box> cover() const override;
+    std::size_t leaf_count() const { return leaves_.size(); }
+
+    /// A function that may change its sign in a cell.
+    struct Live {
+        std::int32_t function = -1;  // row of functions_
+        CellFunction in_cell;
+    };
+    /// The expression over what is live in a cell: `function` and `decide` name rows of `live`.
+    struct Content {
+        std::vector<SetNode> nodes;
+        std::vector<Live> live;
+    };
+
+  private:
+    class LeafRay;
+    std::int32_t add(const Model& model, std::int32_t function);
+    Content whole() const;
+    Box box() const;
+    Content in_cell(const Content& parent, const Box& cell) const;
+    void make(const Task& task);
+    SurfaceHit with_normal(SurfaceHit hit, const Ray& ray, std::int32_t leaf) const;
+
+    Frame frame_;
+    bool open_ = false;           // a sheet: leaves hold the surface and the trim
+    std::vector<SetNode> nodes_;  // `function` and `decide` name rows of functions_
+    std::vector<FunctionTerms> functions_;
+    std::vector<std::int32_t> rows_;  // of functions_: rows of Model::functions
+    RayOctree octree_;
+    std::vector<Content> leaves_;
+};
+
+}  // namespace pfgeom
