@@ -234,7 +234,10 @@ class Model:
         arrays = np.broadcast_arrays(np.asarray(origins), np.asarray(directions))
         (starts, shape), (ways, _) = map(_as_points, arrays)
         found = _core.raycast(self._core, starts, ways, start, end, threads, progress, cancel)
-        return RayHits(*(array.reshape(shape + array.shape[1:]) for array in found))
+        distances, normals, objects, functions = found
+        return RayHits(
+            distances.reshape(shape), normals.reshape((*shape, 3)), objects.reshape(shape), functions.reshape(shape)
+        )
 
     def render(
         self,
@@ -274,11 +277,11 @@ class Model:
             The token was set.
         """
         check_task(threads, progress, cancel)
-        size = [index(side) for side in (width, width if height is None else height)]
-        if not all(1 <= side < 2**31 for side in size):
-            raise ValueError(f"width and height must be 1 or more pixels, not {size[0]} and {size[1]}")
+        columns, rows = index(width), index(width if height is None else height)
+        if not (1 <= columns < 2**31 and 1 <= rows < 2**31):
+            raise ValueError(f"width and height must be 1 or more pixels, not {columns} and {rows}")
         view = as_vector(direction, "direction"), as_vector(up, "up"), slope_of_view(field_of_view), float(margin)
-        return Picture(*_core.render(self._core, *size, *view, threads, progress, cancel))
+        return Picture(*_core.render(self._core, columns, rows, *view, threads, progress, cancel))
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:

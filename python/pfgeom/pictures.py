@@ -101,5 +101,5 @@ def as_vector(values: ArrayLike, name: str) -> Sequence[float]:
     """Three finite numbers."""
     vector = np.asarray(values, dtype=np.float64)
     if vector.shape != (3,) or not np.isfinite(vector).all():
-        raise ValueError(f"{name} must be three finite numbers, not {values}")
+        raise ValueError(f"{name} must be three finite numbers, not {values!r}")
     return list(map(float, vector))

@@ -1,20 +1,20 @@
 #include "pfgeom/render/scene.h"
 
-#include "pfgeom/render/mesh_target.h"
-#include "pfgeom/render/solid_target.h"
-#include "pfgeom/render/tree_target.h"
+#include "pfgeom/render/ray_mesh.h"
+#include "pfgeom/render/ray_solid.h"
+#include "pfgeom/render/ray_tree.h"
 
 namespace pfgeom {
 namespace {
 
 std::unique_ptr<RayTarget> make_target(const Model& model, const Object& object, const Task& task) {
     if (const auto* tree = std::get_if<SetTree>(&object.shape))
-        return std::make_unique<TreeTarget>(*tree, object.frame, task);
+        return std::make_unique<RayTree>(*tree, object.frame, task);
     if (const auto* solid = std::get_if<Solid>(&object.shape))
-        return std::make_unique<SolidTarget>(model, *solid, object.frame, task);
+        return std::make_unique<RaySolid>(model, *solid, object.frame, task);
     if (const auto* sheet = std::get_if<Sheet>(&object.shape))
-        return std::make_unique<SolidTarget>(model, *sheet, object.frame, task);
-    return std::make_unique<MeshTarget>(model, object, task);
+        return std::make_unique<RaySolid>(model, *sheet, object.frame, task);
+    return std::make_unique<RayMesh>(model, object, task);
 }
 
 Box placed(const Box& box, const Similarity& place) {

@@ -31,7 +31,7 @@ class SpanRoots {
   private:
     // Halving on every side is for the few functions of hostile files that bend by any amount; others need
     // some ten halvings in a cell.
-    static constexpr int kHalvings = 40, kMostEvaluations = 4096;
+    static constexpr int kHalvings = 40, kMostEvaluations = 1024;
     // Regula falsi needs 3 to 5 steps in a cell, as the function is nearly linear there; bisection never
     // more.
     static constexpr int kSteps = 100;

@@ -39,7 +39,7 @@ inline Ray random_ray(Random& random, const Box& box) {
         Vec3 p;
         for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform() * 1.4 - 0.2;
         if (random.below(8) == 0)
-            p[static_cast<int>(random.below(3))] = 0.25 * static_cast<double>(random.below(5));
+            p[static_cast<int>(random.below(3))] = 0.25 * static_cast<double>(1 + random.below(3));
         const Vec3 e = box.extent();
         return box.lo + Vec3{e.x * p.x, e.y * p.y, e.z * p.z};
     };

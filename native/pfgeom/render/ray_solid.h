@@ -13,10 +13,10 @@
 
 namespace pfgeom {
 
-class SolidTarget final : public RayTarget {
+class RaySolid final : public RayTarget {
   public:
-    SolidTarget(const Model& model, const Solid& solid, const Frame& frame, const Task& task);
-    SolidTarget(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task);
+    RaySolid(const Model& model, const Solid& solid, const Frame& frame, const Task& task);
+    RaySolid(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task);
 
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
     std::vector<Box> cover() const override;

@@ -1,4 +1,4 @@
-#include "pfgeom/render/mesh_target.h"
+#include "pfgeom/render/ray_mesh.h"
 
 #include "pfgeom/eval/mesh_part.h"
 
@@ -13,12 +13,12 @@ constexpr double kChord = 1e-5, kChordShare = 0.25;
 
 }  // namespace
 
-MeshTarget::MeshTarget(const Model& model, const Object& object, const Task& task)
-    : MeshTarget(mesh_of(object,
-                         {.chord = std::min(kChord * model.diagonal, kChordShare * chord_of(model, object))}),
-                 task) {}
+RayMesh::RayMesh(const Model& model, const Object& object, const Task& task)
+    : RayMesh(mesh_of(object,
+                      {.chord = std::min(kChord * model.diagonal, kChordShare * chord_of(model, object))}),
+              task) {}
 
-MeshTarget::MeshTarget(const TriangleMesh& mesh, const Task& task) : bvh_(mesh, task) {
+RayMesh::RayMesh(const TriangleMesh& mesh, const Task& task) : bvh_(mesh, task) {
     const auto vertex = [&mesh](std::int32_t i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
     for (const auto& [i, j, k] : mesh.faces) {
         const Vec3 a = vertex(i), b = vertex(j), c = vertex(k);
@@ -27,7 +27,7 @@ MeshTarget::MeshTarget(const TriangleMesh& mesh, const Task& task) : bvh_(mesh, 
     }
 }
 
-SurfaceHit MeshTarget::first_hit(const Ray& ray, const RaySpan& span) const {
+SurfaceHit RayMesh::first_hit(const Ray& ray, const RaySpan& span) const {
     const RayHit hit = bvh_.first_hit(ray.origin, ray.direction, span.from, span.to);
     if (hit.face < 0) return {};
     return {hit.t, normals_[static_cast<std::size_t>(hit.face)], -1, hit.face};

@@ -11,9 +11,9 @@
 
 namespace pfgeom {
 
-class TreeTarget final : public RayTarget {
+class RayTree final : public RayTarget {
   public:
-    TreeTarget(const SetTree& tree, const Frame& frame, const Task& task);
+    RayTree(const SetTree& tree, const Frame& frame, const Task& task);
 
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
     std::vector<Box> cover() const override;

@@ -1,7 +1,7 @@
 // On a ray a quadric is a parabola, so a decision tree cuts it exactly: at a node the ray's span falls into
 // up to three parts, each with an answer. Source: Roth, "Ray casting for modeling solids", 1982. Departure:
 // the parts are walked in order, as far as the first change of sides.
-#include "pfgeom/render/tree_target.h"
+#include "pfgeom/render/ray_tree.h"
 
 #include "pfgeom/render/local_ray.h"
 #include "pfgeom/render/parabola.h"
@@ -73,13 +73,13 @@ PrunedTree without_box(const PrunedTree& whole) {
 
 }  // namespace
 
-TreeTarget::TreeTarget(const SetTree& tree, const Frame& frame, const Task& task)
+RayTree::RayTree(const SetTree& tree, const Frame& frame, const Task& task)
     : frame_(frame), pruner_(tree), quadrics_(tree.quadrics.size()) {
     octree_.box = tree.box();
     make(task);
 }
 
-void TreeTarget::make(const Task& task) {
+void RayTree::make(const Task& task) {
     const auto look = [&](const PrunedTree& parent, const Box& cell, int depth, PrunedTree& left) {
         pruner_.prune(parent, widened(cell, kReach), true, {}, left);
         const std::size_t questions = left.size() / 2;
@@ -94,7 +94,7 @@ void TreeTarget::make(const Task& task) {
     octree_ = make_octree(octree_.box, without_box(pruner_.whole()), task, look, keep);
 }
 
-SurfaceHit TreeTarget::first_hit(const Ray& world, const RaySpan& span) const {
+SurfaceHit RayTree::first_hit(const Ray& world, const RaySpan& span) const {
     const LocalRay local(frame_, world, span, octree_.box.centre());
     const auto ask = [&](std::int32_t leaf, const RaySpan& part) {
         const auto nodes = std::span(nodes_).subspan(static_cast<std::size_t>(first_[leaf]));
@@ -104,14 +104,14 @@ SurfaceHit TreeTarget::first_hit(const Ray& world, const RaySpan& span) const {
 }
 
 // `hit.function` is a question as yet; a side of the box has its normal.
-SurfaceHit TreeTarget::with_normal(SurfaceHit hit, const Ray& ray) const {
+SurfaceHit RayTree::with_normal(SurfaceHit hit, const Ray& ray) const {
     if (hit.function < 0) return hit;
     hit.normal = along(pruner_.quadric(hit.function).gradient(ray.at(hit.t)), hit.normal);
     if (static_cast<std::size_t>(hit.function) >= quadrics_) hit.function = -1;
     return hit;
 }
 
-std::vector<Box> TreeTarget::cover() const {
+std::vector<Box> RayTree::cover() const {
     return cover_in(frame_, octree_);
 }
 
