@@ -39,8 +39,12 @@ class FunctionTerms {
 
 /// What holds in a box.
 struct CellFunction {
-    Interval range;                  ///< of the function
-    double bend = 0;                 ///< the norm of its Hessian is at most this
+    Interval range;   ///< of the function
+    double bend = 0;  ///< the norm of its Hessian is at most this
+    /// The function is within `error` of linear.value + linear.gradient · (p - centre).
+    Vec3 centre;
+    Jet linear;
+    double error = 0;
     std::vector<std::int32_t> live;  ///< terms that are not zero throughout, rising
 };
 

@@ -16,11 +16,11 @@ void add_cells(const RayOctree& tree, std::int32_t cell, const Box& box, int dep
 
 }  // namespace
 
-std::vector<Box> cover_in(const Frame& frame, const RayOctree& tree) {
+std::vector<Box> cover_in(const CubePlace& place, const RayOctree& tree) {
     constexpr int kDepth = 4;
     std::vector<Box> cells;
     add_cells(tree, tree.root, tree.box, kDepth, cells);
-    for (Box& cell : cells) cell = {frame.to_world(cell.lo), frame.to_world(cell.hi)};
+    for (Box& cell : cells) cell = {place.to_world(cell.lo), place.to_world(cell.hi)};
     return cells;
 }
 

@@ -11,7 +11,7 @@
 
 #include "pfgeom/base/box.h"
 #include "pfgeom/base/parallel.h"
-#include "pfgeom/function/frame.h"
+#include "pfgeom/render/local_ray.h"
 #include "pfgeom/render/ray.h"
 
 #include <array>
@@ -100,7 +100,7 @@ RayOctree make_octree(const Box& box, const Content& whole, const Task& task, Lo
 }
 
 /// The cells that are not outside, in the world; not divided below a depth of 4.
-std::vector<Box> cover_in(const Frame& frame, const RayOctree& tree);
+std::vector<Box> cover_in(const CubePlace& place, const RayOctree& tree);
 
 /// One ray's way through an octree. visit(cell, span) is called for the cells that are not kOutside, in
 /// order, until it returns true.

@@ -1,12 +1,8 @@
 #include "pfgeom/render/ray_solid.h"
 
 #include "pfgeom/render/ellipsoid_box.h"
-#include "pfgeom/render/local_ray.h"
-#include "pfgeom/render/parabola.h"
-#include "pfgeom/render/span_roots.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace pfgeom {
 namespace {
@@ -16,8 +12,6 @@ using Kind = SetNode::Kind;
 // A cell is cut no further with so few functions and terms, or at this depth.
 constexpr std::size_t kFewFunctions = 2, kFewTerms = 4;
 constexpr int kDepth = 6;
-// Of the search for zeros, in the cube's units.
-constexpr double kResolution = 1e-11;
 
 const Box kCube{{-1, -1, -1}, {1, 1, 1}};
 
@@ -43,91 +37,8 @@ std::int32_t& function_of(SetNode& node) {
 
 }  // namespace
 
-// The functions of one leaf along a ray.
-class RaySolid::LeafRay {
-  public:
-    LeafRay(const RaySolid& target, const Content& leaf, const Ray& ray)
-        : target_(target), leaf_(leaf), ray_(ray), squared_speed_(squared_norm(ray.direction)) {}
-
-    LeafAnswer ask_solid(const RaySpan& span) {
-        const bool alone = leaf_.live.size() == 1;
-        for (std::size_t i = 0; i < leaf_.live.size(); ++i) {
-            signs_.push_back(search(i, span, alone) ? 1 : 0);
-        }
-        std::sort(roots_.begin(), roots_.end(),
-                  [](const Root& a, const Root& b) { return std::tie(a.t, a.live) < std::tie(b.t, b.live); });
-        const bool begins = is_inside(leaf_.nodes, signs_, scratch_);
-        for (const Root& root : roots_) {
-            signs_[root.live] ^= 1U;
-            if (is_inside(leaf_.nodes, signs_, scratch_) == begins) continue;
-            const Vec3 outwards = begins ? ray_.direction : -ray_.direction;
-            return {begins, !begins, {root.t, outwards, -1, leaf_.live[root.live].function}};
-        }
-        return {begins, begins, {}};
-    }
-
-    // The surface is the first function; the second, if it is live, the trim.
-    LeafAnswer ask_sheet(const RaySpan& span) {
-        search(0, span, leaf_.live.size() == 1);
-        for (const Root& root : roots_) {
-            if (leaf_.live.size() > 1 && value(1, root.t) < 0) continue;
-            return {false, false, {root.t, {}, -1, leaf_.live[0].function}};
-        }
-        return {};
-    }
-
-  private:
-    struct Root {
-        double t = 0;
-        std::size_t live = 0;
-    };
-
-    double value(std::size_t i, double t) const {
-        const Live& live = leaf_.live[i];
-        return target_.functions_[static_cast<std::size_t>(live.function)].value(ray_.at(t),
-                                                                                 live.in_cell.live);
-    }
-
-    // Adds the zeros of one function; returns its sign at the beginning.
-    bool search(std::size_t i, const RaySpan& span, bool first_only) {
-        if (leaf_.live[i].in_cell.live.empty()) return solve(i, span);
-        const auto f = [&](double t) { return value(i, t); };
-        const auto found = [&](double t) {
-            roots_.push_back({t, i});
-            return first_only;
-        };
-        SpanRoots roots(f, leaf_.live[i].in_cell.bend * squared_speed_,
-                        kResolution / std::sqrt(squared_speed_), found);
-        roots.run(span);
-        return roots.from_value() >= 0;
-    }
-
-    // The same where the base alone is left.
-    bool solve(std::size_t i, const RaySpan& span) {
-        const Live& live = leaf_.live[i];
-        const Parabola parabola(target_.functions_[static_cast<std::size_t>(live.function)].base(), ray_);
-        std::array<double, 2> zeros{};
-        const int count = parabola.roots(zeros);
-        double first = span.to;
-        for (int k = count; k-- > 0;) {
-            const double t = zeros[static_cast<std::size_t>(k)];
-            if (!(t > span.from && t < span.to)) continue;
-            roots_.push_back({t, i});
-            first = t;
-        }
-        return parabola.is_high(span.from + (first - span.from) / 2);
-    }
-
-    const RaySolid& target_;
-    const Content& leaf_;
-    const Ray& ray_;
-    double squared_speed_;
-    std::vector<Root> roots_;
-    std::vector<std::uint8_t> signs_, scratch_;
-};
-
 RaySolid::RaySolid(const Model& model, const Solid& solid, const Frame& frame, const Task& task)
-    : frame_(frame), nodes_(without_outer_complement(solid.nodes)) {
+    : place_(frame), nodes_(without_outer_complement(solid.nodes)) {
     for (SetNode& node : nodes_) {
         if (names_function(node)) function_of(node) = add(model, function_of(node));
     }
@@ -135,7 +46,7 @@ RaySolid::RaySolid(const Model& model, const Solid& solid, const Frame& frame, c
 }
 
 RaySolid::RaySolid(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task)
-    : frame_(frame), open_(true) {
+    : place_(frame), open_(true) {
     nodes_ = {{Kind::function, add(model, sheet.surface), -1, -1}};
     if (sheet.trim != sheet.surface) {
         nodes_.push_back({Kind::function, add(model, sheet.trim), -1, -1});
@@ -152,10 +63,10 @@ std::int32_t RaySolid::add(const Model& model, std::int32_t function) {
     return static_cast<std::int32_t>(rows_.size()) - 1;
 }
 
-RaySolid::Content RaySolid::whole() const {
-    Content whole{nodes_, {}};
+SolidLeaf RaySolid::whole() const {
+    SolidLeaf whole{nodes_, {}};
     for (std::size_t i = 0; i < functions_.size(); ++i) {
-        Live live{static_cast<std::int32_t>(i), {}};
+        LiveFunction live{static_cast<std::int32_t>(i), {}};
         for (std::size_t term = 0; term < functions_[i].count(); ++term)
             live.in_cell.live.push_back(static_cast<std::int32_t>(term));
         whole.live.push_back(std::move(live));
@@ -164,16 +75,16 @@ RaySolid::Content RaySolid::whole() const {
 }
 
 // What of the parent's is left in the cell.
-RaySolid::Content RaySolid::in_cell(const Content& parent, const Box& cell) const {
+SolidLeaf RaySolid::in_cell(const SolidLeaf& parent, const Box& cell) const {
     std::vector<CellFunction> seen;
     std::vector<KnownSign> signs;
-    for (const Live& live : parent.live) {
+    for (const LiveFunction& live : parent.live) {
         const auto& terms = functions_[static_cast<std::size_t>(live.function)];
         seen.push_back(look_at_cell(terms, live.in_cell.live, cell));
         signs.push_back(sign_of(seen.back().range));
     }
     if (open_ && !seen.empty() && signs[0] == KnownSign::inside) signs[0] = KnownSign::outside;  // no surface
-    Content left{fold(parent.nodes, signs), {}};
+    SolidLeaf left{fold(parent.nodes, signs), {}};
     std::vector<std::int32_t> place(parent.live.size(), -1);
     for (SetNode& node : left.nodes) {
         if (!names_function(node)) continue;
@@ -199,17 +110,17 @@ Box RaySolid::box() const {
 }
 
 void RaySolid::make(const Task& task) {
-    const auto look = [&](const Content& parent, const Box& cell, int depth, Content& left) {
+    const auto look = [&](const SolidLeaf& parent, const Box& cell, int depth, SolidLeaf& left) {
         task.check();
         left = in_cell(parent, widened(cell, kReach));
         if (left.nodes.back().kind == Kind::outside) return CellFate::outside;
         if (left.nodes.back().kind == Kind::inside) return CellFate::inside;
         std::size_t terms = 0;
-        for (const Live& live : left.live) terms += live.in_cell.live.size();
+        for (const LiveFunction& live : left.live) terms += live.in_cell.live.size();
         const bool simple = left.live.size() <= kFewFunctions && terms <= kFewTerms;
         return simple || depth == kDepth ? CellFate::leaf : CellFate::split;
     };
-    const auto keep = [&](Content left) {
+    const auto keep = [&](SolidLeaf left) {
         leaves_.push_back(std::move(left));
         return static_cast<std::int32_t>(leaves_.size()) - 1;
     };
@@ -217,11 +128,11 @@ void RaySolid::make(const Task& task) {
 }
 
 SurfaceHit RaySolid::first_hit(const Ray& world, const RaySpan& span) const {
-    const LocalRay local(frame_, world, span, octree_.box.centre());
+    const LocalRay local(place_, world, span, octree_.box.centre());
     std::int32_t last = -1;
     const auto ask = [&](std::int32_t leaf, const RaySpan& part) {
         last = leaf;
-        LeafRay ray(*this, leaves_[static_cast<std::size_t>(leaf)], local.ray());
+        LeafRay ray(functions_, leaves_[static_cast<std::size_t>(leaf)], local.ray());
         return open_ ? ray.ask_sheet(part) : ray.ask_solid(part);
     };
     const SurfaceHit hit = first_hit_in(octree_, local.ray(), local.span(), ask);
@@ -232,7 +143,7 @@ SurfaceHit RaySolid::first_hit(const Ray& world, const RaySpan& span) const {
 SurfaceHit RaySolid::with_normal(SurfaceHit hit, const Ray& ray, std::int32_t leaf) const {
     if (hit.function < 0) return hit;
     const auto row = static_cast<std::size_t>(hit.function);
-    for (const Live& live : leaves_[static_cast<std::size_t>(leaf)].live) {
+    for (const LiveFunction& live : leaves_[static_cast<std::size_t>(leaf)].live) {
         if (live.function != hit.function) continue;
         const Vec3 gradient = functions_[row].jet(ray.at(hit.t), live.in_cell.live).gradient;
         hit.normal = open_ ? along(-gradient, -gradient) : along(gradient, hit.normal);
@@ -242,7 +153,7 @@ SurfaceHit RaySolid::with_normal(SurfaceHit hit, const Ray& ray, std::int32_t le
 }
 
 std::vector<Box> RaySolid::cover() const {
-    return cover_in(frame_, octree_);
+    return cover_in(place_, octree_);
 }
 
 }  // namespace pfgeom

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "pfgeom/base/task.h"
-#include "pfgeom/function/frame.h"
-#include "pfgeom/render/cell_function.h"
-#include "pfgeom/render/folded_solid.h"
+#include "pfgeom/render/local_ray.h"
 #include "pfgeom/render/ray_octree.h"
 #include "pfgeom/render/ray_target.h"
+#include "pfgeom/render/solid_leaf.h"
 
 #include <vector>
 
@@ -22,33 +21,21 @@ class RaySolid final : public RayTarget {
     std::vector<Box> cover() const override;
     std::size_t leaf_count() const { return leaves_.size(); }
 
-    /// A function that may change its sign in a cell.
-    struct Live {
-        std::int32_t function = -1;  // row of functions_
-        CellFunction in_cell;
-    };
-    /// The expression over what is live in a cell: `function` and `decide` name rows of `live`.
-    struct Content {
-        std::vector<SetNode> nodes;
-        std::vector<Live> live;
-    };
-
   private:
-    class LeafRay;
     std::int32_t add(const Model& model, std::int32_t function);
-    Content whole() const;
+    SolidLeaf whole() const;
     Box box() const;
-    Content in_cell(const Content& parent, const Box& cell) const;
+    SolidLeaf in_cell(const SolidLeaf& parent, const Box& cell) const;
     void make(const Task& task);
     SurfaceHit with_normal(SurfaceHit hit, const Ray& ray, std::int32_t leaf) const;
 
-    Frame frame_;
+    CubePlace place_;
     bool open_ = false;           // a sheet: leaves hold the surface and the trim
     std::vector<SetNode> nodes_;  // `function` and `decide` name rows of functions_
     std::vector<FunctionTerms> functions_;
     std::vector<std::int32_t> rows_;  // of functions_: rows of Model::functions
     RayOctree octree_;
-    std::vector<Content> leaves_;
+    std::vector<SolidLeaf> leaves_;
 };
 
 }  // namespace pfgeom

@@ -3,7 +3,6 @@
 // the parts are walked in order, as far as the first change of sides.
 #include "pfgeom/render/ray_tree.h"
 
-#include "pfgeom/render/local_ray.h"
 #include "pfgeom/render/parabola.h"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace pfgeom {
 namespace {
 
 // A cell is cut no further when it asks no more than kFewQuestions, or at this depth.
-constexpr int kFewQuestions = 2, kDepth = 6;
+constexpr int kFewQuestions = 3, kDepth = 6;
 
 class LeafCut {
   public:
@@ -74,7 +73,7 @@ PrunedTree without_box(const PrunedTree& whole) {
 }  // namespace
 
 RayTree::RayTree(const SetTree& tree, const Frame& frame, const Task& task)
-    : frame_(frame), pruner_(tree), quadrics_(tree.quadrics.size()) {
+    : place_(frame), pruner_(tree), quadrics_(tree.quadrics.size()) {
     octree_.box = tree.box();
     make(task);
 }
@@ -95,7 +94,7 @@ void RayTree::make(const Task& task) {
 }
 
 SurfaceHit RayTree::first_hit(const Ray& world, const RaySpan& span) const {
-    const LocalRay local(frame_, world, span, octree_.box.centre());
+    const LocalRay local(place_, world, span, octree_.box.centre());
     const auto ask = [&](std::int32_t leaf, const RaySpan& part) {
         const auto nodes = std::span(nodes_).subspan(static_cast<std::size_t>(first_[leaf]));
         return LeafCut(pruner_, nodes, local.ray()).run(part);
@@ -112,7 +111,7 @@ SurfaceHit RayTree::with_normal(SurfaceHit hit, const Ray& ray) const {
 }
 
 std::vector<Box> RayTree::cover() const {
-    return cover_in(frame_, octree_);
+    return cover_in(place_, octree_);
 }
 
 }  // namespace pfgeom

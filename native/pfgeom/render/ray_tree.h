@@ -3,7 +3,7 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/eval/pruned_tree.h"
-#include "pfgeom/function/frame.h"
+#include "pfgeom/render/local_ray.h"
 #include "pfgeom/render/ray_octree.h"
 #include "pfgeom/render/ray_target.h"
 
@@ -23,7 +23,7 @@ class RayTree final : public RayTarget {
     void make(const Task& task);
     SurfaceHit with_normal(SurfaceHit hit, const Ray& ray) const;
 
-    Frame frame_;
+    CubePlace place_;
     TreePruner pruner_;
     std::size_t quadrics_;  // the first questions; then sides of the box, and cuts
     RayOctree octree_;

@@ -2,13 +2,12 @@
 
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/render/shade.h"
+#include "pfgeom/render/tiles.h"
 
 namespace pfgeom {
 namespace {
 
-// Rays that are cast between two looks at the cancel token: some milliseconds at most.
-constexpr std::size_t kRays = 256;
-constexpr int kTile = 16;
+constexpr std::size_t kRays = 256;  // a chunk
 
 bool is_castable(const Ray& ray) {
     const double squared = squared_norm(ray.direction);
@@ -29,14 +28,12 @@ class Renderer {
     }
 
     void run(const Task& task) {
-        const int columns = tiles(picture_.size.width), rows = tiles(picture_.size.height);
-        for (int row = 0; row < rows; row += kRowsBetweenReports) {
-            task.report(static_cast<double>(row) / rows, "rendering");
-            const int count = std::min(kRowsBetweenReports, rows - row) * columns;
-            parallel_chunks(static_cast<std::size_t>(count), 1, task, [&](std::size_t begin, std::size_t) {
-                const int tile = static_cast<int>(begin);
-                draw_tile(tile % columns, row + tile / columns);
-            });
+        const std::vector<Tile> tiles = tiles_showing(scene_.cover(), camera_, picture_.size);
+        for (std::size_t first = 0; first < tiles.size(); first += kTilesBetweenReports) {
+            task.report(static_cast<double>(first) / static_cast<double>(tiles.size()), "rendering");
+            const std::size_t count = std::min(kTilesBetweenReports, tiles.size() - first);
+            parallel_chunks(count, 1, task,
+                            [&](std::size_t begin, std::size_t) { draw(tiles[first + begin], task); });
         }
         task.report(1, "rendering");
     }
@@ -44,15 +41,12 @@ class Renderer {
     Picture take() { return std::move(picture_); }
 
   private:
-    static constexpr int kRowsBetweenReports = 8;
+    static constexpr std::size_t kTilesBetweenReports = 512;
 
-    static int tiles(int pixels) { return (pixels + kTile - 1) / kTile; }
-
-    void draw_tile(int column, int row) {
-        const int right = std::min((column + 1) * kTile, picture_.size.width);
-        const int bottom = std::min((row + 1) * kTile, picture_.size.height);
-        for (int y = row * kTile; y < bottom; ++y) {
-            for (int x = column * kTile; x < right; ++x) draw(x, y);
+    void draw(const Tile& tile, const Task& task) {
+        for (int y = tile.top; y < tile.bottom; ++y) {
+            task.check();
+            for (int x = tile.left; x < tile.right; ++x) draw(x, y);
         }
     }
 
@@ -85,6 +79,7 @@ std::vector<SurfaceHit> cast_rays(const RayScene& scene, std::span<const Ray> ra
     std::vector<SurfaceHit> hits(rays.size());
     parallel_chunks(rays.size(), kRays, task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            task.check();
             if (is_castable(rays[i])) hits[i] = scene.first_hit(rays[i], span);
         }
     });

@@ -35,6 +35,7 @@ class SpanRoots {
     // Regula falsi needs 3 to 5 steps in a cell, as the function is nearly linear there; bisection never
     // more.
     static constexpr int kSteps = 100;
+    static constexpr double kRefine = 1e-3;  // of the resolution
 
     struct End {
         double t, value;
@@ -49,7 +50,7 @@ class SpanRoots {
             if (steep || clear > 0.125 * bend_ * d * d) return false;
         }
         if (steep || d <= resolution_ || halvings == 0 || evaluations_ >= kMostEvaluations)
-            return changes && found_(refine(a, b));
+            return changes && found_(refine(a, b, rise / d - 0.5 * bend_ * d));
         const double t = a.t + 0.5 * d;
         const End middle{t, f_(t)};
         ++evaluations_;
@@ -58,10 +59,11 @@ class SpanRoots {
 
     // Source: Dowell, Jarratt, "A modified regula falsi method for computing the root of an equation", 1971
     // (Illinois). Departure: every third step that does not halve the bracket is a bisection.
-    double refine(End a, End b) const {
+    // `slope`: the least one, if positive.
+    double refine(End a, End b, double slope) const {
         int side = 0;
         double before = b.t - a.t;
-        for (int step = 1; step <= kSteps && b.t - a.t > 1e-3 * resolution_; ++step) {
+        for (int step = 1; step <= kSteps && b.t - a.t > kRefine * resolution_; ++step) {
             double t = a.t - a.value * ((b.t - a.t) / (b.value - a.value));
             if (step % 3 == 0) {
                 if (b.t - a.t > 0.5 * before) t = a.t + 0.5 * (b.t - a.t);
@@ -69,7 +71,7 @@ class SpanRoots {
             }
             if (!(t > a.t && t < b.t)) return a.value == 0 ? a.t : t <= a.t ? a.t : b.t;
             const double value = f_(t);
-            if (value == 0) return t;
+            if (std::abs(value) <= kRefine * resolution_ * slope || value == 0) return t;
             if ((value >= 0) == a.high()) {
                 if (side < 0) b.value *= 0.5;
                 a = {t, value};
