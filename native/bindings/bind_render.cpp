@@ -17,6 +17,9 @@ namespace py = pybind11;
 namespace pfgeom::bindings {
 namespace {
 
+/// The share of a picture's progress that making the scene is.
+constexpr double kPreparing = 0.2;
+
 using Triple = std::array<double, 3>;
 
 /// Directions get unit length, so that a ray's parameter is a distance; those without one stay as they are.
@@ -38,7 +41,7 @@ py::tuple cast(const ModelPointer& handle, const Points& origins, const Points& 
     Job job(threads, std::move(progress), cancel);
     const std::vector<SurfaceHit> hits =
         job.run([=, rays = rays_from(origins, directions)](const Task& task) {
-            return cast_rays(handle->scene(task), rays, {from, to}, task);
+            return cast_rays(handle->scene(task), rays, {from, to}, quiet(task, task.threads));
         });
     std::vector<double> distances;
     std::vector<Vec3> normals;
@@ -67,8 +70,8 @@ py::tuple draw(const ModelPointer& handle, int width, int height, const Triple& 
     const View view{vector_of(direction), vector_of(up), slope, margin};
     Picture picture = job.run([=](const Task& task) {
         check_size(size);
-        const RayScene& scene = handle->scene(task);
-        return render(scene, fit_camera(scene.cover(), view, size), size, task);
+        const RayScene& scene = handle->scene(part_of(task, 0, kPreparing));
+        return render(scene, fit_camera(scene.cover(), view, size), size, part_of(task, kPreparing, 1));
     });
     const py::ssize_t rows = height, columns = width;
     return py::make_tuple(array_of<std::uint8_t>(std::move(picture.colours), {rows, columns, 4}),

@@ -17,7 +17,7 @@ class RaySolid final : public RayTarget {
     RaySolid(const Model& model, const Solid& solid, const Frame& frame, const Task& task);
     RaySolid(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task);
 
-    SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
+    SurfaceHit first_hit(const Ray& world, const RaySpan& span) const override;
     std::vector<Box> cover() const override;
     std::size_t leaf_count() const { return leaves_.size(); }
 

@@ -15,7 +15,7 @@ class RayTree final : public RayTarget {
   public:
     RayTree(const SetTree& tree, const Frame& frame, const Task& task);
 
-    SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
+    SurfaceHit first_hit(const Ray& world, const RaySpan& span) const override;
     std::vector<Box> cover() const override;
     std::size_t leaf_count() const { return first_.size(); }
 
