@@ -63,10 +63,11 @@ Vec3 vector_of(const Triple& values) {
     return {values[0], values[1], values[2]};
 }
 
-py::tuple draw(const ModelPointer& handle, int width, int height, const Triple& direction, const Triple& up,
-               double slope, double margin, int threads, py::object progress, const CancelToken* cancel) {
+py::tuple draw(const ModelPointer& handle, int width, int height, int samples, const Triple& direction,
+               const Triple& up, double slope, double margin, int threads, py::object progress,
+               const CancelToken* cancel) {
     Job job(threads, std::move(progress), cancel);
-    const PictureSize size{width, height};
+    const PictureSize size{width, height, samples};
     const View view{vector_of(direction), vector_of(up), slope, margin};
     Picture picture = job.run([=](const Task& task) {
         check_size(size);
@@ -87,9 +88,9 @@ void bind_render(py::module_& m) {
     m.def("raycast", &cast, py::arg("model"), py::arg("origins").noconvert(),
           py::arg("directions").noconvert(), py::arg("start"), py::arg("end"), py::arg("threads"),
           py::arg("progress"), py::arg("cancel"));
-    m.def("render", &draw, py::arg("model"), py::arg("width"), py::arg("height"), py::arg("direction"),
-          py::arg("up"), py::arg("slope"), py::arg("margin"), py::arg("threads"), py::arg("progress"),
-          py::arg("cancel"));
+    m.def("render", &draw, py::arg("model"), py::arg("width"), py::arg("height"), py::arg("samples"),
+          py::arg("direction"), py::arg("up"), py::arg("slope"), py::arg("margin"), py::arg("threads"),
+          py::arg("progress"), py::arg("cancel"));
 }
 
 }  // namespace pfgeom::bindings

@@ -96,6 +96,7 @@ def render(
     model: Model,
     width: int,
     height: int,
+    samples: int,
     direction: Sequence[float],
     up: Sequence[float],
     slope: float,

@@ -95,6 +95,9 @@ def _add_render(commands: Any) -> None:
         "--field-of-view", type=float, default=28.0, metavar="DEG",
         help="across the shorter side, up to 150 degrees (default 28); 0 is orthographic",
     )  # fmt: skip
+    command.add_argument(
+        "--samples", type=_count, default=2, metavar="N", help="N x N rays a pixel, up to 16 (default 2)"
+    )
     _add_common(command)
 
 

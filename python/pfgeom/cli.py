@@ -119,6 +119,7 @@ def run_render(args: argparse.Namespace) -> None:
             direction=args.direction,
             up=args.up,
             field_of_view=args.field_of_view,
+            samples=args.samples,
             threads=args.threads,
             progress=progress,
         )

@@ -248,6 +248,7 @@ class Model:
         up: ArrayLike = (0.0, 0.0, 1.0),
         field_of_view: float = 28.0,
         margin: float = 0.04,
+        samples: int = 1,
         threads: int = 0,
         progress: Progress | None = None,
         cancel: CancelToken | None = None,
@@ -266,6 +267,9 @@ class Model:
             In degrees, across the shorter side, up to 150; 0 is an orthographic camera.
         margin
             Share of the picture to leave free at each side.
+        samples
+            Colours are the mean of this number, squared, of rays a pixel, up to 16: 3 makes smooth outlines. The
+            other arrays are of the pixels' centres.
         threads, progress, cancel
             As for `to_mesh`; the same picture, bit for bit, for any number of threads.
 
@@ -278,10 +282,12 @@ class Model:
         """
         check_task(threads, progress, cancel)
         columns, rows = index(width), index(width if height is None else height)
+        if not 1 <= index(samples) <= 16:
+            raise ValueError(f"samples must be from 1 to 16, not {samples}")
         if not (1 <= columns < 2**31 and 1 <= rows < 2**31):
             raise ValueError(f"width and height must be 1 or more pixels, not {columns} and {rows}")
         view = as_vector(direction, "direction"), as_vector(up, "up"), slope_of_view(field_of_view), float(margin)
-        return Picture(*_core.render(self._core, columns, rows, *view, threads, progress, cancel))
+        return Picture(*_core.render(self._core, columns, rows, index(samples), *view, threads, progress, cancel))
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:

@@ -154,6 +154,17 @@ def test_a_sphere_is_round(sphere_model):
     assert picture.depth[seen].max() - picture.depth.min() < 1.02
 
 
+def test_samples_smooth_the_outline(sphere_model):
+    plain, smooth = (sphere_model.render(60, samples=samples) for samples in (1, 3))
+    assert np.array_equal(plain.depth, smooth.depth)
+    alpha = smooth.colours[..., 3].astype(float)
+    assert set(np.unique(plain.colours[..., 3])) == {0, 255}
+    assert len(np.unique(alpha)) > 5
+    assert alpha.sum() == pytest.approx(plain.colours[..., 3].sum(dtype=float), rel=0.01)
+    middle = np.s_[25:35, 25:35, :3]
+    assert np.abs(plain.colours[middle].astype(int) - smooth.colours[middle]).max() <= 2
+
+
 def test_up_is_up(gear_model):
     a = gear_model.render(90, direction=(0, 0, -1), up=(0, 1, 0)).objects
     b = gear_model.render(90, direction=(0, 0, -1), up=(0, -1, 0)).objects
@@ -178,6 +189,8 @@ def test_invalid_views(sphere_model):
         ({"field_of_view": -1}, "field_of_view"),
         ({"field_of_view": 170}, "field_of_view"),
         ({"margin": 0.5}, "margin"),
+        ({"samples": 0}, "samples"),
+        ({"samples": 17}, "samples"),
     ):
         with pytest.raises(ValueError, match=message):
             sphere_model.render(**options)
@@ -206,7 +219,7 @@ def test_command_line(command_line, torus_model, tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert "80 x 60" in done.stdout
-    expected = torus_model.render(80, 60, direction=(0, 0, -1), up=(0, 1, 0))
+    expected = torus_model.render(80, 60, direction=(0, 0, -1), up=(0, 1, 0), samples=2)
     assert np.array_equal(read_png(tmp_path / "a.png"), expected.colours)
     for wrong in (("a.jpg",), ("a.png", "--size", "0"), ("a.png", "--size", "1x2x3"), ("a.png", "--up", "1", "2")):
         assert command_line("render", "a.pfg", *wrong).returncode == 2

@@ -51,6 +51,7 @@ void check_size(const PictureSize& size) {
     const int most = Limits{}.picture_side;
     if (size.width < 1 || size.height < 1 || size.width > most || size.height > most)
         throw InvalidInput("a picture's sides must be from 1 to " + std::to_string(most) + " pixels");
+    if (size.samples < 1 || size.samples > 16) throw InvalidInput("samples must be from 1 to 16 a side");
 }
 
 // A corner c is in the picture where |c.x - eye.x| <= s (c.z - eye.z), with s the half width at distance 1:

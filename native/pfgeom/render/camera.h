@@ -10,9 +10,10 @@ namespace pfgeom {
 
 struct PictureSize {
     int width = 1024, height = 1024;
+    int samples = 1;  ///< colours are the mean of so many rays squared: 1 to 16
 };
 
-/// InvalidInput unless both sides are from 1 to Limits::picture_side.
+/// InvalidInput unless both sides are from 1 to Limits::picture_side, and samples as above.
 void check_size(const PictureSize& size);
 
 /// From where to see boxes.

@@ -50,20 +50,44 @@ class Renderer {
         }
     }
 
+    // Through the point of the picture at x, y pixels from its left and top.
+    Ray ray_at(double x, double y) const {
+        return camera_.ray(2 * x / picture_.size.width - 1, 1 - 2 * y / picture_.size.height);
+    }
+
     void draw(int x, int y) {
-        const PictureSize& size = picture_.size;
-        const Ray ray = camera_.ray((2 * x + 1 - size.width) / (1.0 * size.width),
-                                    (size.height - 2 * y - 1) / (1.0 * size.height));
+        const Ray ray = ray_at(x + 0.5, y + 0.5);
         const SurfaceHit hit = scene_.first_hit(ray);
+        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.size.width) +
+                       static_cast<std::size_t>(x);
+        if (picture_.size.samples > 1) picture_.colours[i] = mean_colour(x, y);
         if (!hit.found()) return;
-        const auto i =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
         const Vec3& n = hit.normal;
         picture_.depth[i] = hit.t;
         picture_.normals[i] = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
         picture_.objects[i] = hit.object;
         picture_.functions[i] = hit.function;
-        picture_.colours[i] = shading_.colour(n, ray.direction);
+        if (picture_.size.samples == 1) picture_.colours[i] = shading_.colour(n, ray.direction);
+    }
+
+    // The alpha is the share of the samples that meet something, the colour the mean of theirs.
+    std::array<std::uint8_t, 4> mean_colour(int x, int y) const {
+        const int n = picture_.size.samples;
+        std::array<int, 4> sum{};
+        int met = 0;
+        for (int k = 0; k < n * n; ++k) {
+            const Ray ray = ray_at(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n);
+            const SurfaceHit hit = scene_.first_hit(ray);
+            if (!hit.found()) continue;
+            ++met;
+            const auto colour = shading_.colour(hit.normal, ray.direction);
+            for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c];
+        }
+        std::array<std::uint8_t, 4> mean{};
+        if (met == 0) return mean;
+        for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((sum[c] + met / 2) / met);
+        mean[3] = static_cast<std::uint8_t>((sum[3] + n * n / 2) / (n * n));
+        return mean;
     }
 
     const RayScene& scene_;

@@ -25,8 +25,8 @@ struct Picture {
     std::vector<std::array<std::uint8_t, 4>> colours;  ///< two lights, red green blue alpha
 };
 
-/// The centre of each pixel is looked at: the same bits for any number of threads. What lies behind the eye
-/// is not seen. InvalidInput: as fit_camera has it.
+/// The centre of each pixel is looked at, for colours also `samples` squared places of it: the same bits for
+/// any number of threads. What lies behind the eye is not seen. InvalidInput: as fit_camera has it.
 Picture render(const RayScene& scene, const Camera& camera, const PictureSize& size, const Task& task = {});
 
 }  // namespace pfgeom

@@ -83,7 +83,7 @@ TEST(Render, DepthNormalsAndColoursAgree) {
                 continue;
             }
             ++seen;
-            const Ray ray = camera.ray((2 * x + 1 - 64) / 64.0, (64 - 2 * y - 1) / 64.0);
+            const Ray ray = camera.ray(2 * (x + 0.5) / 64 - 1, 1 - 2 * (y + 0.5) / 64);
             const Vec3 p = ray.at(picture.depth[i]);
             EXPECT_NEAR(dot(p - camera.eye, camera.forward), picture.depth[i], 1e-12);
             Vec3 gradient;
@@ -112,8 +112,8 @@ TEST(Render, EveryPixelIsItsRay) {
             std::vector<Ray> rays;
             for (int y = 0; y < size.height; ++y) {
                 for (int x = 0; x < size.width; ++x)
-                    rays.push_back(camera.ray((2 * x + 1 - size.width) / (1.0 * size.width),
-                                              (size.height - 2 * y - 1) / (1.0 * size.height)));
+                    rays.push_back(
+                        camera.ray(2 * (x + 0.5) / size.width - 1, 1 - 2 * (y + 0.5) / size.height));
             }
             const std::vector<SurfaceHit> hits = cast_rays(scene, rays, {}, {});
             const Picture picture = render(scene, camera, size);
@@ -163,6 +163,7 @@ TEST(Render, SaysWhatIsWrong) {
     EXPECT_THROW(fit_camera(cover, {.margin = 0.5}, {}), InvalidInput);
     EXPECT_THROW(fit_camera(cover, {}, {0, 10}), InvalidInput);
     EXPECT_THROW(fit_camera(cover, {}, {10, 8193}), InvalidInput);
+    EXPECT_THROW(fit_camera(cover, {}, {10, 10, 0}), InvalidInput);
     EXPECT_THROW(fit_camera({}, {}, {}), InvalidInput);
     EXPECT_THROW(render(scene, fit_camera(cover, {}, {}), {10, -1}), InvalidInput);
     const auto found =
