@@ -10,7 +10,6 @@
 #pragma once
 
 #include "pfgeom/base/box.h"
-#include "pfgeom/base/parallel.h"
 #include "pfgeom/render/local_ray.h"
 #include "pfgeom/render/ray.h"
 
@@ -38,65 +37,11 @@ struct RayOctree {
     static bool is_leaf(std::int32_t cell) { return cell <= kFirstLeaf; }
 };
 
-/// What is left of an object in a cell while the octree is made.
-enum class CellFate : std::uint8_t { outside, inside, leaf, split };
-
 inline Box child_box(const Box& box, unsigned place) {
     const Vec3 middle = box.centre();
     Box child = box;
     for (int axis = 0; axis < 3; ++axis) (place >> axis & 1U ? child.lo : child.hi)[axis] = middle[axis];
     return child;
-}
-
-inline Box widened(const Box& box, double by) {
-    return {box.lo - Vec3{by, by, by}, box.hi + Vec3{by, by, by}};
-}
-
-/// Level by level. fate = look(parent's content, cell, depth, content): what is left there and what becomes
-/// of it; keep(content): the next leaf's number, from one thread and in a fixed order.
-template <class Content, class Look, class Keep>
-RayOctree make_octree(const Box& box, const Content& whole, const Task& task, Look look, Keep keep) {
-    constexpr std::size_t kChunk = 16;  // cells, of some 10 µs each
-    struct Cell {
-        Box box;
-        Content content;
-        CellFate fate = CellFate::outside;
-        std::int32_t node = -1;  // where its number is to be written
-        unsigned place = 0;
-    };
-    RayOctree tree;
-    tree.box = box;
-    std::vector<Cell> cells(1), split;
-    cells[0].box = box;
-    cells[0].fate = look(whole, box, 0, cells[0].content);
-    for (int depth = 1; !cells.empty(); ++depth) {
-        split.clear();
-        for (Cell& cell : cells) {
-            std::int32_t number = cell.fate == CellFate::inside ? RayOctree::kInside : RayOctree::kOutside;
-            if (cell.fate == CellFate::leaf) number = RayOctree::kFirstLeaf - keep(std::move(cell.content));
-            if (cell.fate == CellFate::split) {
-                number = static_cast<std::int32_t>(tree.nodes.size());
-                tree.nodes.emplace_back();
-            }
-            (cell.node < 0 ? tree.root : tree.nodes[static_cast<std::size_t>(cell.node)][cell.place]) =
-                number;
-            if (cell.fate != CellFate::split) continue;
-            cell.node = number;
-            split.push_back(std::move(cell));
-        }
-        cells.assign(8 * split.size(), {});
-        parallel_chunks(cells.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Cell& parent = split[i / 8];
-                Cell& cell = cells[i];
-                cell.place = static_cast<unsigned>(i % 8);
-                cell.node = parent.node;
-                cell.box = child_box(parent.box, cell.place);
-                cell.fate = look(parent.content, cell.box, depth, cell.content);
-            }
-        });
-    }
-    return tree;
 }
 
 /// The cells that are not outside, in the world; not divided below a depth of 4.

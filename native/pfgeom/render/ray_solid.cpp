@@ -1,6 +1,7 @@
 #include "pfgeom/render/ray_solid.h"
 
 #include "pfgeom/render/ellipsoid_box.h"
+#include "pfgeom/render/make_octree.h"
 
 #include <algorithm>
 
@@ -9,7 +10,9 @@ namespace {
 
 using Kind = SetNode::Kind;
 
-// A cell is cut no further with so few functions and terms, or at this depth.
+// A cell is cut no further with so few functions and terms, or at this depth. CPU seconds of making the cells
+// and of drawing igea at rms 2e-4 (8,564 perturbations), 1024², at depth 5, 6, 7: 0.05 + 1.71, 0.16 + 1.20,
+// 0.45 + 1.02.
 constexpr std::size_t kFewFunctions = 2, kFewTerms = 4;
 constexpr int kDepth = 6;
 
@@ -124,7 +127,12 @@ void RaySolid::make(const Task& task) {
         leaves_.push_back(std::move(left));
         return static_cast<std::int32_t>(leaves_.size()) - 1;
     };
-    octree_ = make_octree(box(), whole(), task, look, keep);
+    const auto weigh = [](const SolidLeaf& left) {
+        std::size_t weight = left.nodes.size() + 16 * left.live.size();
+        for (const LiveFunction& live : left.live) weight += live.in_cell.live.size();
+        return static_cast<double>(weight);
+    };
+    octree_ = make_octree(box(), whole(), task, look, keep, weigh);
 }
 
 SurfaceHit RaySolid::first_hit(const Ray& world, const RaySpan& span) const {

@@ -134,6 +134,26 @@ TEST(RaySolid, SheetEndsAtItsTrim) {
     }
 }
 
+// Functions whose ranges never exclude zero, since two huge perturbations cancel: no cell prunes any of them,
+// and the octree stays as coarse as its budget.
+TEST(RaySolid, MemoryIsBounded) {
+    constexpr std::int32_t kFunctions = 100;
+    Model model;
+    Solid solid;
+    for (std::int32_t i = 0; i < kFunctions; ++i) {
+        const Quadric everywhere{{0, 0, 0, 0, 0, 0, 0.1, 0, 0, 2.0 + i}};
+        model.functions.push_back(
+            {{{0, 0, 0, 0, 0, 0, 0, 0, 0, -1}}, {{1e30, everywhere}, {-1e30, everywhere}}, {}, {}});
+        solid.nodes.push_back({Kind::function, i, -1, -1});
+        const auto last = static_cast<std::int32_t>(solid.nodes.size()) - 1;
+        if (i > 0) solid.nodes.push_back({Kind::unite, last - 1, last, -1});
+    }
+    const RaySolid target(model, solid, kUnit, {});
+    EXPECT_EQ(target.leaf_count(), 4096U);
+    // In doubles the huge ones leave zero, which is inside: the cube's side is the surface.
+    EXPECT_DOUBLE_EQ(target.first_hit({{-3, 0.1, 0.2}, {1, 0, 0}}, {}).t, 2);
+}
+
 // What is left of a function in a cell has its bits, and its range holds.
 TEST(CellFunction, SameBitsAndAConservativeRange) {
     Random random(12);
