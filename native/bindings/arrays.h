@@ -31,16 +31,23 @@ inline std::span<const std::int32_t> span_of(const Indices& indices) {
     return {indices.data(), static_cast<std::size_t>(indices.size())};
 }
 
-/// Hands the rows over without a copy: the array owns them.
+/// Hands the rows over without a copy: the array owns them. `shape` must hold all their scalars.
 template <class Scalar, class Row>
-pybind11::array_t<Scalar> array_from(std::vector<Row> rows) {
-    static_assert(sizeof(Row) == 3 * sizeof(Scalar));
+pybind11::array_t<Scalar> array_of(std::vector<Row> rows, std::vector<pybind11::ssize_t> shape) {
+    static_assert(sizeof(Row) % sizeof(Scalar) == 0);
     auto owned = std::make_unique<std::vector<Row>>(std::move(rows));
-    const auto count = static_cast<pybind11::ssize_t>(owned->size());
     const auto* data = reinterpret_cast<const Scalar*>(owned->data());
     const pybind11::capsule owner(owned.get(), [](void* p) { delete static_cast<std::vector<Row>*>(p); });
     owned.release();
-    return pybind11::array_t<Scalar>({count, pybind11::ssize_t{3}}, data, owner);
+    return pybind11::array_t<Scalar>(std::move(shape), data, owner);
+}
+
+/// Rows of three, as (n, 3).
+template <class Scalar, class Row>
+pybind11::array_t<Scalar> array_from(std::vector<Row> rows) {
+    static_assert(sizeof(Row) == 3 * sizeof(Scalar));
+    const auto count = static_cast<pybind11::ssize_t>(rows.size());
+    return array_of<Scalar>(std::move(rows), {count, 3});
 }
 
 /// (vertices (n,3) float64, faces (m,3) int32)

@@ -13,6 +13,7 @@ void bind_mesh(pybind11::module_& m);
 void bind_function(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
 void bind_compress(pybind11::module_& m);
+void bind_render(pybind11::module_& m);
 void bind_report(pybind11::module_& m);
 void bind_distance(pybind11::module_& m);
 

@@ -1,8 +1,9 @@
-// A model with its bytes and, once somebody asks for values, its field.
+// A model with its bytes and, once somebody asks for values or casts rays, what that takes.
 #pragma once
 
 #include "pfgeom/eval/model_field.h"
 #include "pfgeom/function/model.h"
+#include "pfgeom/render/scene.h"
 
 #include <cstdint>
 #include <memory>
@@ -26,12 +27,19 @@ class ModelHandle {
         std::call_once(once_, [this] { field_.emplace(model_); });
         return *field_;
     }
+    /// Likewise, for rays. A call that is stopped leaves nothing behind; the next one begins anew.
+    const RayScene& scene(const Task& task) const {
+        std::call_once(scene_once_, [&] { scene_.emplace(model_, task); });
+        return *scene_;
+    }
 
   private:
     Model model_;
     std::vector<std::uint8_t> bytes_;
     mutable std::once_flag once_;
     mutable std::optional<ModelField> field_;
+    mutable std::once_flag scene_once_;
+    mutable std::optional<RayScene> scene_;
 };
 
 using ModelPointer = std::shared_ptr<ModelHandle>;

@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, m) {
     bind_function(m);
     bind_model(m);
     bind_compress(m);
+    bind_render(m);
     bind_report(m);
     bind_distance(m);
 }

@@ -19,6 +19,7 @@ from .encoder import compress
 from .errors import Cancelled, FormatError, LimitError, PfgeomError
 from .meshes import Mesh, read_mesh, write_mesh
 from .model import FunctionCount, Model, from_bytes, load
+from .pictures import Picture, RayHits
 from .quadrics import nine_points
 from .tasks import CancelToken, Progress
 
@@ -34,7 +35,9 @@ __all__ = [
     "Model",
     "OneSided",
     "PfgeomError",
+    "Picture",
     "Progress",
+    "RayHits",
     "__version__",
     "closest_points",
     "compare",

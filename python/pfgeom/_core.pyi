@@ -1,6 +1,6 @@
 """Native core of pfgeom; private, use the package's own names."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -80,8 +80,31 @@ def compress(
 ) -> tuple[Model, dict[str, Any]]: ...
 def decode(data: bytes) -> Model: ...
 def nine_points(points: _Float64) -> _Float64: ...
+def raycast(
+    model: Model,
+    origins: _Float64,
+    directions: _Float64,
+    start: float,
+    end: float,
+    threads: int,
+    progress: _Progress,
+    cancel: CancelToken | None,
+) -> tuple[_Float64, _Float64, _Int32, _Int32]: ...
 def read_file(path: str | bytes) -> bytes: ...
 def read_mesh(path: str | bytes) -> tuple[_Float64, _Int32]: ...
+def render(
+    model: Model,
+    width: int,
+    height: int,
+    samples: int,
+    direction: Sequence[float],
+    up: Sequence[float],
+    slope: float,
+    margin: float,
+    threads: int,
+    progress: _Progress,
+    cancel: CancelToken | None,
+) -> tuple[NDArray[np.uint8], _Float64, NDArray[np.float32], _Int32, _Int32]: ...
 def triangulate(vertices: _Float64, corners: _Int32, lengths: _Int32) -> _Int32: ...
 def write_file(path: str | bytes, data: bytes) -> None: ...
 def write_mesh(path: str | bytes, vertices: _Float64, faces: _Int32) -> None: ...

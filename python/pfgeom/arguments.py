@@ -23,6 +23,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_decompress(commands)
     _add_info(commands)
     _add_compare(commands)
+    _add_render(commands)
     return parser
 
 
@@ -75,6 +76,31 @@ def _add_compare(commands: Any) -> None:
     _add_common(command)
 
 
+def _add_render(commands: Any) -> None:
+    command = commands.add_parser("render", help="a picture of a .pfg file, straight from its functions")
+    command.add_argument("input", metavar="IN.pfg")
+    command.add_argument("output", metavar="OUT.png", type=_path_ending(".png"))
+    command.add_argument(
+        "--size", type=_size, default=(1024, 1024), metavar="N|WxH", help="in pixels, up to 8192 (default 1024)"
+    )
+    command.add_argument(
+        "--direction", type=float, nargs=3, default=(-1.0, -1.0, -1.0), metavar=("X", "Y", "Z"),
+        help="where the camera looks (default -1 -1 -1); it stands where all is seen",
+    )  # fmt: skip
+    command.add_argument(
+        "--up", type=float, nargs=3, default=(0.0, 0.0, 1.0), metavar=("X", "Y", "Z"),
+        help="what is up in the picture (default 0 0 1)",
+    )  # fmt: skip
+    command.add_argument(
+        "--field-of-view", type=float, default=28.0, metavar="DEG",
+        help="across the shorter side, up to 150 degrees (default 28); 0 is orthographic",
+    )  # fmt: skip
+    command.add_argument(
+        "--samples", type=_count, default=2, metavar="N", help="N x N rays a pixel, up to 16 (default 2)"
+    )
+    _add_common(command)
+
+
 def _add_absolute(command: argparse.ArgumentParser) -> None:
     command.add_argument("--absolute", action="store_true", help="the tolerance is a length in the mesh's units")
 
@@ -101,6 +127,13 @@ def _count(text: str) -> int:
     if value < 1:
         raise argparse.ArgumentTypeError(f"must be 1 or more: {text}")
     return value
+
+
+def _size(text: str) -> tuple[int, int]:
+    sides = [_count(side) for side in text.lower().split("x")]
+    if len(sides) > 2:
+        raise argparse.ArgumentTypeError(f"must be N or WxH: {text}")
+    return sides[0], sides[-1]
 
 
 def _threads(text: str) -> int:

@@ -1,4 +1,4 @@
-"""The command line: compress, decompress, info, compare.
+"""The command line: compress, decompress, info, compare, render.
 
 Exit codes: 0 done, 1 failed (one sentence on stderr), 2 wrong usage, 130 interrupted. Results go to stdout, as a
 table or with ``--json`` as one object; the progress bar goes to stderr, if that is a terminal.
@@ -23,6 +23,7 @@ from .encoder import compress
 from .errors import PfgeomError
 from .meshes import Mesh, read_mesh, write_mesh
 from .model import Model, load
+from .pictures import Picture
 from .progress import progress_bar
 
 
@@ -34,6 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         "decompress": run_decompress,
         "info": run_info,
         "compare": run_compare,
+        "render": run_render,
     }
     try:
         commands[args.command](args)
@@ -107,6 +109,25 @@ def run_compare(args: argparse.Namespace) -> None:
     _print(args, compare_figures(args, deviation), tables.compared)
 
 
+def run_render(args: argparse.Namespace) -> None:
+    _check_target(args.output)
+    model = load(args.input)
+    start = time.perf_counter()
+    with progress_bar(quiet=args.quiet) as progress:
+        picture = model.render(
+            *args.size,
+            direction=args.direction,
+            up=args.up,
+            field_of_view=args.field_of_view,
+            samples=args.samples,
+            threads=args.threads,
+            progress=progress,
+        )
+    seconds = time.perf_counter() - start
+    picture.save(args.output)
+    _print(args, render_figures(args, model, picture, seconds), tables.rendered)
+
+
 # --- figures: what --json prints and the tables show -----------------------------------------------------------
 
 
@@ -145,6 +166,18 @@ def decompress_figures(args: argparse.Namespace, model: Model, mesh: Mesh, secon
 
 def compare_figures(args: argparse.Namespace, deviation: Deviation) -> dict[str, Any]:
     return {"a": args.a, "b": args.b, "samples": args.samples, **deviation.to_dict()}
+
+
+def render_figures(args: argparse.Namespace, model: Model, picture: Picture, seconds: float) -> dict[str, Any]:
+    return {
+        "input": args.input,
+        "output": args.output,
+        "functions": model.functions._asdict(),
+        "width": picture.depth.shape[1],
+        "height": picture.depth.shape[0],
+        "covered": float((picture.objects >= 0).mean()),
+        "seconds": seconds,
+    }
 
 
 def _promise_figures(model: Model) -> dict[str, Any]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable
 from copy import deepcopy
 from functools import cached_property
+from operator import index
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +17,7 @@ from . import _core
 from .errors import FormatError
 from .meshes import Mesh, native_path
 from .normals import corner_normals
+from .pictures import Picture, RayHits, as_vector, slope_of_view
 from .tasks import CancelToken, Progress, check_task
 
 
@@ -189,6 +192,102 @@ class Model:
         inside = self._core.contains(rows, threads).view(np.bool_)
         answers: NDArray[np.bool_] = inside.reshape(shape)[()]
         return answers
+
+    # --- rays and pictures -------------------------------------------------------------------------------
+
+    def raycast(
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        *,
+        start: float = 0.0,
+        end: float = math.inf,
+        threads: int = 0,
+        progress: Progress | None = None,
+        cancel: CancelToken | None = None,
+    ) -> RayHits:
+        """The first point of the surface on each ray, found on the functions themselves.
+
+        The surface is that of all objects and their copies, that of one within another included. What is found is
+        exact but for rounding, some 1e-12 of the size; a ray that only touches the surface may find it or not.
+
+        Parameters
+        ----------
+        origins, directions : (..., 3)
+            They are broadcast against each other. Directions may have any length. A ray with a number that is not
+            finite, or without a direction, meets nothing.
+        start, end
+            The distances from the origin between which to look.
+        threads, progress, cancel
+            As for `to_mesh`.
+
+        Raises
+        ------
+        ValueError, TypeError
+            The arrays or an option are not valid.
+        Cancelled
+            The token was set.
+        """
+        check_task(threads, progress, cancel)
+        if not (start >= 0 and end >= start):
+            raise ValueError(f"start and end must be distances, the end not before the start: {start}, {end}")
+        arrays = np.broadcast_arrays(np.asarray(origins), np.asarray(directions))
+        (starts, shape), (ways, _) = map(_as_points, arrays)
+        found = _core.raycast(self._core, starts, ways, start, end, threads, progress, cancel)
+        distances, normals, objects, functions = found
+        return RayHits(
+            distances.reshape(shape), normals.reshape((*shape, 3)), objects.reshape(shape), functions.reshape(shape)
+        )
+
+    def render(
+        self,
+        width: int = 1024,
+        height: int | None = None,
+        *,
+        direction: ArrayLike = (-1.0, -1.0, -1.0),
+        up: ArrayLike = (0.0, 0.0, 1.0),
+        field_of_view: float = 28.0,
+        margin: float = 0.04,
+        samples: int = 1,
+        threads: int = 0,
+        progress: Progress | None = None,
+        cancel: CancelToken | None = None,
+    ) -> Picture:
+        """A picture of the surface, straight from the functions: no polygons are made.
+
+        The camera stands where all of the surface is seen, as large as possible.
+
+        Parameters
+        ----------
+        width, height
+            Pixels, up to 8192; without ``height`` the picture is square.
+        direction, up
+            Where the camera looks, and what is up in the picture; of any length.
+        field_of_view
+            In degrees, across the shorter side, up to 150; 0 is an orthographic camera.
+        margin
+            Share of the picture to leave free at each side.
+        samples
+            Colours are the mean of this number, squared, of rays a pixel, up to 16: 3 makes smooth outlines. The
+            other arrays are of the pixels' centres.
+        threads, progress, cancel
+            As for `to_mesh`; the same picture, bit for bit, for any number of threads.
+
+        Raises
+        ------
+        ValueError
+            An option is not valid, or there is no surface.
+        Cancelled
+            The token was set.
+        """
+        check_task(threads, progress, cancel)
+        columns, rows = index(width), index(width if height is None else height)
+        if not 1 <= index(samples) <= 16:
+            raise ValueError(f"samples must be from 1 to 16, not {samples}")
+        if not (1 <= columns < 2**31 and 1 <= rows < 2**31):
+            raise ValueError(f"width and height must be 1 or more pixels, not {columns} and {rows}")
+        view = as_vector(direction, "direction"), as_vector(up, "up"), slope_of_view(field_of_view), float(margin)
+        return Picture(*_core.render(self._core, columns, rows, index(samples), *view, threads, progress, cancel))
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:

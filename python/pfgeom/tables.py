@@ -91,6 +91,15 @@ def compared(f: dict[str, Any]) -> list[Row]:
     ]
 
 
+def rendered(f: dict[str, Any]) -> list[Row]:
+    return [
+        _functions(f),
+        ("pixels", f"{f['width']:,} x {f['height']:,}", f["output"]),
+        ("covered", f"{100 * f['covered']:.1f} %", "of the picture"),
+        ("seconds", f"{f['seconds']:.2f}", "without writing the file"),
+    ]
+
+
 def _functions(f: dict[str, Any]) -> Row:
     count = FunctionCount(**f["functions"])
     counts = ((count.patches, "curved patches"), (count.mesh_part_faces, "triangles of mesh parts"))

@@ -18,6 +18,8 @@ struct Limits {
     /// Polygonizing: what one call may make.
     std::size_t polygon_cells = 100'000'000;
     std::size_t polygon_faces = 20'000'000;
+    /// Pictures: 32 bytes a pixel, 2 GiB at most.
+    int picture_side = 8192;
     /// Names and other strings, UTF-8.
     std::size_t string_bytes = 255;
 };

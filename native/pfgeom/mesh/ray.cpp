@@ -23,8 +23,10 @@ std::array<double, 4> entries(const BvhNode& node, const Vec3& origin, const Vec
                 continue;
             }
             const double t0 = lo / direction[axis], t1 = hi / direction[axis];
-            near = std::max(near, std::min(t0, t1));
-            far = std::min(far, std::max(t0, t1));
+            // By the direction and not by size, so that an unused child's empty box is left where it is
+            // entered.
+            near = std::max(near, direction[axis] > 0 ? t0 : t1);
+            far = std::min(far, direction[axis] > 0 ? t1 : t0);
         }
         const double slack =
             1e-12 * (std::abs(near) + std::abs(far));  // far above rounding; NaN only at infinity

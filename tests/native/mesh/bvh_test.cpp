@@ -193,6 +193,26 @@ TEST(Bvh, AxisParallelRaysAlongFlatBoxes) {
     EXPECT_EQ(bvh.first_hit({1.001, 0.5, 5}, {0, 0, -1}).face, -1);
 }
 
+// Its only node has children without faces.
+TEST(Bvh, RaysOfMeshesOfOneToFourFaces) {
+    const TriangleMesh whole = shapes::cube(1);
+    for (std::size_t count = 1; count <= 4; ++count) {
+        TriangleMesh mesh{whole.vertices,
+                          {whole.faces.begin(), whole.faces.begin() + static_cast<long>(count)}};
+        const Bvh bvh(mesh);
+        Random random(count);
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 from = random_point(random, 3), to = random_point(random, 1);
+            const RayHit hit = bvh.first_hit(from, to - from);
+            const RayHit back = bvh.first_hit(to, from - to, 0, 1);
+            if (hit.face < 0) continue;
+            EXPECT_NEAR(std::abs((from + hit.t * (to - from)).z), 1, 1e-12);
+            EXPECT_EQ(hit.t <= 1, back.face >= 0);
+        }
+        EXPECT_EQ(bvh.first_hit({0, 0, 5}, {1e-3, 2e-3, 1}).face, -1);
+    }
+}
+
 TEST(Bvh, WindingNumberOfClosedSurfaces) {
     Random random(5);
     for (const TriangleMesh& mesh : {shapes::sphere(4), shapes::torus(), shapes::cube()}) {

@@ -1,0 +1,27 @@
+// Rays against a mesh part: its triangles, or fine ones near its curved faces.
+#pragma once
+
+#include "pfgeom/function/model.h"
+#include "pfgeom/mesh/bvh.h"
+#include "pfgeom/render/ray_target.h"
+
+#include <vector>
+
+namespace pfgeom {
+
+class RayMesh final : public RayTarget {
+  public:
+    RayMesh(const Model& model, const Object& object, const Task& task);
+
+    SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
+    std::vector<Box> cover() const override { return boxes_; }
+
+  private:
+    RayMesh(const TriangleMesh& mesh, const Task& task);
+
+    Bvh bvh_;
+    std::vector<Vec3> normals_;  // of each face
+    std::vector<Box> boxes_;     // likewise
+};
+
+}  // namespace pfgeom

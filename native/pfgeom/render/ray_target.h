@@ -1,0 +1,22 @@
+// One object as rays see it.
+#pragma once
+
+#include "pfgeom/base/box.h"
+#include "pfgeom/render/ray.h"
+
+#include <vector>
+
+namespace pfgeom {
+
+/// Immutable and safe to use from many threads.
+class RayTarget {
+  public:
+    virtual ~RayTarget() = default;
+    /// The first point of the surface with from <= t < to; `object` is left to the caller. In the world,
+    /// without the object's further copies.
+    virtual SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const = 0;
+    /// Boxes that hold the surface together; none if there is no surface.
+    virtual std::vector<Box> cover() const = 0;
+};
+
+}  // namespace pfgeom

@@ -1,0 +1,96 @@
+#include "pfgeom/render/scene.h"
+
+#include "pfgeom/render/ray_mesh.h"
+#include "pfgeom/render/ray_solid.h"
+#include "pfgeom/render/ray_tree.h"
+
+namespace pfgeom {
+namespace {
+
+std::unique_ptr<RayTarget> make_target(const Model& model, const Object& object, const Task& task) {
+    if (const auto* tree = std::get_if<SetTree>(&object.shape))
+        return std::make_unique<RayTree>(*tree, object.frame, task);
+    if (const auto* solid = std::get_if<Solid>(&object.shape))
+        return std::make_unique<RaySolid>(model, *solid, object.frame, task);
+    if (const auto* sheet = std::get_if<Sheet>(&object.shape))
+        return std::make_unique<RaySolid>(model, *sheet, object.frame, task);
+    return std::make_unique<RayMesh>(model, object, task);
+}
+
+Box placed(const Box& box, const Similarity& place) {
+    Box all;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        all.grow(
+            place.apply({(corner & 1U) != 0 ? box.hi.x : box.lo.x, (corner & 2U) != 0 ? box.hi.y : box.lo.y,
+                         (corner & 4U) != 0 ? box.hi.z : box.lo.z}));
+    }
+    return all;
+}
+
+// Larger by what rounding may have taken off.
+Box with_margin(const Box& box) {
+    const Vec3 size = max(max(box.lo, -box.lo), max(box.hi, -box.hi));
+    const double by = 1e-12 * (std::max({size.x, size.y, size.z}) + box.diagonal());
+    return {box.lo - Vec3{by, by, by}, box.hi + Vec3{by, by, by}};
+}
+
+}  // namespace
+
+RayScene::RayScene(const Model& model, const Task& task) {
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < model.objects.size(); ++i) {
+        const Object& object = model.objects[i];
+        task.report(static_cast<double>(i) / static_cast<double>(model.objects.size()), "preparing");
+        targets_.push_back(make_target(model, object, task));
+        Box box;
+        for (const Box& part : targets_.back()->cover()) box.grow(part);
+        if (box.empty()) continue;
+        const bool is_cavity = object.cavity_of >= 0 && !std::holds_alternative<MeshPart>(object.shape);
+        pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), false, is_cavity, {}});
+        boxes.push_back(with_margin(box));
+        for (const Similarity& place : object.instances) {
+            pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), true, is_cavity, place});
+            boxes.push_back(with_margin(placed(box, place)));
+        }
+    }
+    boxes_ = BoxTree(boxes);
+}
+
+// Of equal ones the one that comes first: pieces are met in the ray's order.
+SurfaceHit RayScene::first_hit(const Ray& ray, const RaySpan& span) const {
+    SurfaceHit best;
+    RaySpan left = span;
+    boxes_.walk(ray, left, [&](std::int32_t piece, RaySpan& part) {
+        const SurfaceHit hit = hit_of(pieces_[static_cast<std::size_t>(piece)], ray, part);
+        if (!(hit.t < best.t || (hit.t == best.t && hit.object < best.object))) return;
+        best = hit;
+        part.to = hit.t;
+    });
+    return best;
+}
+
+std::vector<Box> RayScene::cover() const {
+    std::vector<Box> all;
+    for (const Piece& piece : pieces_) {
+        for (const Box& box : piece.target->cover())
+            all.push_back(piece.is_copy ? placed(box, piece.place) : box);
+    }
+    return all;
+}
+
+SurfaceHit RayScene::hit_of(const Piece& piece, const Ray& ray, const RaySpan& span) {
+    SurfaceHit hit;
+    if (piece.is_copy) {
+        const Similarity& s = piece.place;
+        const Ray back{s.apply_inverse(ray.origin), s.turn_back(ray.direction) / s.scale};
+        hit = piece.target->first_hit(back, span);
+        hit.normal = s.turn(hit.normal);
+    } else {
+        hit = piece.target->first_hit(ray, span);
+    }
+    if (piece.is_cavity) hit.normal = -hit.normal;
+    if (hit.found()) hit.object = piece.object;
+    return hit;
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,38 @@
+// A model made ready for rays.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/function/model.h"
+#include "pfgeom/render/box_tree.h"
+#include "pfgeom/render/ray_target.h"
+
+#include <memory>
+#include <vector>
+
+namespace pfgeom {
+
+/// Immutable, safe to use from many threads; made once for a model, kept for many rays. The surface is that
+/// of all objects and their copies, whatever lies within another one included.
+class RayScene {
+  public:
+    explicit RayScene(const Model& model, const Task& task = {});
+
+    SurfaceHit first_hit(const Ray& ray, const RaySpan& span = {}) const;
+    /// Boxes that hold the surface together, in some detail; none if there is no surface.
+    std::vector<Box> cover() const;
+
+  private:
+    struct Piece {  // an object, in place or as a copy
+        const RayTarget* target = nullptr;
+        std::int32_t object = -1;
+        bool is_copy = false, is_cavity = false;
+        Similarity place;
+    };
+    static SurfaceHit hit_of(const Piece& piece, const Ray& ray, const RaySpan& span);
+
+    std::vector<std::unique_ptr<RayTarget>> targets_;  // of each object
+    std::vector<Piece> pieces_;
+    BoxTree boxes_;  // of the pieces
+};
+
+}  // namespace pfgeom
