@@ -53,6 +53,13 @@ def test_demo(run, tmp_path):
         assert len(rebuilt.faces) == len(pfgeom.load(tmp_path / "out" / f"{name}.pfg").to_mesh().faces)
 
 
+def test_assembly(run, tmp_path):
+    shown = run("assembly.py", "--bolts", 6, "--brackets", 4, "--tolerance", "2e-3", "--out", tmp_path)
+    assert [line.split()[-1] for line in shown.splitlines()[2:]] == ["yes"]
+    assert pfgeom.load(tmp_path / "assembly-0.002.pfg").nbytes < 500
+    assert len(pfgeom.read_mesh(tmp_path / "assembly.ply").faces) > 1000
+
+
 def test_car_has_83_ellipsoids_and_about_136_000_triangles(car):
     parts = car.car_parts()
     mesh = car.make_car(parts)
