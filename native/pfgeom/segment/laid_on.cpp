@@ -1,7 +1,8 @@
 // Vertices that come in the same order tell at once. Else two landmarks of the pattern are looked for among
 // the vertices; each pair that could be them gives a placement, which is tried at a few points, improved by
-// least squares and then asked of all. Source of the improvement: Besl, McKay, "A method for registration of
-// 3-D shapes", IEEE PAMI 14(2), 1992. Departure: what lies near a vertex is drawn to the vertex.
+// least squares and then asked of all.
+// Source: Besl, McKay, "A method for registration of 3-D shapes", IEEE PAMI 14(2), 1992. Departure: where
+// both have as many vertices, points are drawn to the nearest vertex, and one round is enough.
 #include "pfgeom/segment/laid_on.h"
 
 #include "pfgeom/segment/point_alignment.h"
