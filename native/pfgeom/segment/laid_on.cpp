@@ -121,7 +121,10 @@ class Laying {
     Similarity improved(Similarity s, bool mirrored) const {
         std::vector<Vec3> to(pattern_.mesh_.vertices.size());
         for (int round = 0; round < kRounds; ++round) {
-            for (std::size_t i = 0; i < to.size(); ++i) to[i] = goal_of(s.apply(pattern_.mesh_.vertices[i]));
+            for (std::size_t i = 0; i < to.size(); ++i) {
+                task_.check();
+                to[i] = goal_of(s.apply(pattern_.mesh_.vertices[i]));
+            }
             s = align_points(pattern_.mesh_.vertices, to, mirrored, rigid_);
             if (same_count()) break;
         }
@@ -156,6 +159,7 @@ class Laying {
                     double scale) const {
         double most = 0;
         for (const Vec3& v : vertices) {
+            task_.check();
             const ClosestPoint closest = from.closest(move(v), best_residual_ / scale);
             if (closest.face < 0) return std::numeric_limits<double>::infinity();
             most = std::max(most, closest.squared_distance);
