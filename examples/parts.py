@@ -435,8 +435,8 @@ def hub_gear(b: Builder) -> None:
     b.cap(9, True, loop, [b.circle((0, 0), 14, n)])
 
 
-def bracket(b: Builder) -> None:
-    """An angle with a fillet inside, rounded outside, and two holes in each leg."""
+def bracket(b: Builder, along: float = 20) -> None:
+    """An angle with a fillet inside, rounded outside, and two holes in each leg: in its middle, or so far along it."""
     flat: list[Piece] = [Line((60, 0), wall=False), Line((60, 8)), Line((18, 8), wall=False)]
     fillet = Arc((8, 18), (18, 18), left=False)
     upright: list[Piece] = [Line((8, 50), wall=False), Line((0, 50)), Line((0, 14), wall=False)]
@@ -447,7 +447,7 @@ def bracket(b: Builder) -> None:
     for turn, far, spots in ((turns[0], 50, (28, 42)), (turns[1], 60, (30, 50))):
         stands = turn is turns[0]
         b.frame(turn)
-        places = [(s, 20.0) if stands else (20.0, s) for s in spots]
+        places = [(s, along) if stands else (along, s) for s in spots]
         rims = [hole(b, at, 3.5, 0, 8) for at in places]
         for level, near in ((0, 14), (8, 18)):
             corners = [(near, 0), (far, 0), (far, 40), (near, 40)]

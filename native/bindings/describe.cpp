@@ -64,7 +64,7 @@ py::list describe_objects(const Model& model) {
     for (const Object& object : model.objects) {
         py::dict entry = std::visit([](const auto& shape) { return describe_shape(shape); }, object.shape);
         entry["cavity_of"] = object.cavity_of < 0 ? py::object(py::none()) : py::int_(object.cavity_of);
-        entry["instances"] = 1 + object.instances.size();
+        entry["instances"] = copies_of(object).size();
         objects.append(entry);
     }
     return objects;
@@ -94,8 +94,8 @@ py::dict describe_deviation(const Deviation& d) {
 py::dict describe_report(const CompressReport& report) {
     py::list islands;
     for (const IslandReport& island : report.islands)
-        islands.append(
-            py::dict("faces"_a = island.faces, "candidate"_a = island.candidate, "bytes"_a = island.bytes));
+        islands.append(py::dict("faces"_a = island.faces, "candidate"_a = island.candidate,
+                                "copies"_a = island.copies, "bytes"_a = island.bytes));
     return py::dict("vertices"_a = report.input_vertices, "faces"_a = report.input_faces,
                     "raw_bytes"_a = report.raw_bytes, "mesh_faces"_a = report.mesh_faces,
                     "deviation"_a = describe_deviation(report.deviation), "islands"_a = islands,

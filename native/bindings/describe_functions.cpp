@@ -123,6 +123,7 @@ py::dict describe(const ListedFunction& function) {
     const QuadricShape& shape = function.shape;
     py::dict entry("kind"_a = std::string(name_of(shape.kind)), "object"_a = function.object,
                    "surface"_a = function.surface, "perturbations"_a = function.perturbations);
+    if (function.copies > 1) entry["copies"] = function.copies;
     if (function.area > 0) entry["area"] = function.area;
     if (shape.kind == Kind::nothing) return entry;
     entry[place_of(shape.kind)] = numbers_of(shape.centre);

@@ -146,6 +146,7 @@ def compress_figures(args: argparse.Namespace, model: Model, seconds: float) -> 
         "mesh_triangles": report["mesh_faces"],
         "islands": len(report["islands"]),
         "candidates": dict(Counter(island["candidate"] for island in report["islands"])),
+        "repeated": sum(island["copies"] > 1 for island in report["islands"]),
         "defects": report["defects"],
         "seconds": seconds,
     }

@@ -369,7 +369,8 @@ class Model:
         rounded coefficients may be a circular cylinder. Found on demand, in some ten milliseconds.
 
         Each has ``kind``, such as ``"circular cylinder"``; ``object``, its number in `objects`; ``surface``, False of
-        what only tells parts of space from each other or trims a sheet; ``perturbations``, how many are added to it.
+        what only tells parts of space from each other or trims a sheet; ``perturbations``, how many are added to it;
+        ``copies``, where there are more than one of its object: it is then that of the first.
         In the mesh's units, where they make sense: ``area`` of its part of the surface (an estimate, of set trees);
         ``point``, ``centre``, ``apex`` or ``vertex``; ``normal``, ``axis``, or three ``axes``; ``radius``,
         ``semi_axes``, ``distance`` or ``focal_length``; ``half_angle`` or ``angle`` in degrees; ``hollow``, whether
@@ -379,7 +380,8 @@ class Model:
 
     @cached_property
     def objects(self) -> list[dict[str, Any]]:
-        """One dict an object: ``kind`` (solid, sheet, mesh, tree), ``cavity_of``, ``instances``, counts."""
+        """One dict an object: ``kind`` (solid, sheet, mesh, patches, tree), ``cavity_of``, ``instances`` (in how many
+        places it lies), counts."""
         return self._core.objects()
 
     @cached_property

@@ -33,6 +33,7 @@ def compressed(f: dict[str, Any]) -> list[Row]:
         ("triangles", f"{f['triangles']:,}", ""),
         ("raw bytes", f"{f['raw_bytes']:,}", "12 a vertex, 12 a triangle"),
         ("islands", f"{f['islands']:,}", candidates),
+        *([("repeated", f"{f['repeated']:,}", "islands that are copies of one another")] if f["repeated"] else []),
         *_defects(f["defects"]),
         _functions(f),
         ("file bytes", f"{f['file_bytes']:,}", f["output"]),
@@ -66,6 +67,7 @@ def info(f: dict[str, Any]) -> list[Row]:
             f"{len(f['objects']):,}",
             ", ".join(f"{kind}: {count:,}" for kind, count in kinds.items()),
         ),
+        *_copies(f),
         *_quadrics(f),
         *_kinds(f),
         *_promise(f),
@@ -105,6 +107,13 @@ def _functions(f: dict[str, Any]) -> Row:
     counts = ((count.patches, "curved patches"), (count.mesh_part_faces, "triangles of mesh parts"))
     parts = [f" and {n:,} {what}" for n, what in counts if n]
     return ("functions", str(count), "surface + separators + perturbations" + "".join(parts))
+
+
+def _copies(f: dict[str, Any]) -> list[Row]:
+    """How often the objects that repeat do."""
+    repeated = [entry["instances"] for entry in f["objects"] if entry["instances"] > 1]
+    times = ", ".join(f"{n:,}" for n in sorted(repeated, reverse=True)[:8])
+    return [("repeated", f"{len(repeated):,}", f"objects, in {sum(repeated):,} copies: {times}")] if repeated else []
 
 
 def _quadrics(f: dict[str, Any]) -> list[Row]:

@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::span<const std::uint8_t> bytes(data, size);
     std::vector<std::uint8_t> wrapped;
     if (size < pfgeom::kMagic.size() || !std::equal(pfgeom::kMagic.begin(), pfgeom::kMagic.end(), data)) {
-        wrapped = pfgeom::seal_envelope(bytes, {});
+        const auto version = static_cast<std::uint8_t>(pfgeom::kFirstVersion + size % 2);
+        wrapped = pfgeom::seal_envelope(bytes, {}, version);
         bytes = wrapped;
     }
     const auto model = pfgeom::decode(bytes);

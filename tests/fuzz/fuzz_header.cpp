@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (pfgeom::read_sections(*envelope, size * 4096, model) != pfgeom::FormatStatus::ok) return 0;
     // What was understood is written as it was read, but for unknown sections.
     const auto sections = pfgeom::write_sections(model);
-    const auto again = pfgeom::seal_envelope(envelope->stream, sections);
+    const auto again = pfgeom::seal_envelope(envelope->stream, sections, envelope->version);
     if (again.size() > size || sections.size() != envelope->sections.size()) std::abort();
     if (!pfgeom::open_envelope(again, {})) std::abort();
     return 0;

@@ -82,7 +82,7 @@ def test_tables(command_line, torus_file):
 def test_info_lists_the_quadrics_of_set_trees(sphere_model):
     info = {"input": "sphere.pfg", **sphere_model.info()}
     for families in ({"plane": 2, "sphere": 1}, {"plane": 3}):
-        info["objects"].append({"kind": "tree", "families": families})
+        info["objects"].append({"kind": "tree", "instances": 1, "families": families})
     rows = {label: (figure, remark) for label, figure, remark in tables.info(info)}
     assert rows["quadrics"] == ("6", "plane: 5, sphere: 1")
 

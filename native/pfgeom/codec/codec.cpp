@@ -22,19 +22,20 @@ std::size_t memory_for_sections(std::size_t file_bytes, const Limits& limits) {
                : limits.decode_base_bytes / 4 + file_bytes * per_byte;
 }
 
-Result<Model> decode_stream(std::span<const std::uint8_t> bytes) {
-    CodecStream stream(bytes);
+Result<Model> decode_stream(const Envelope& envelope) {
+    CodecStream stream(envelope.stream, envelope.version);
     Model model;
     code_model(stream, model);
     if (stream.status != FormatStatus::ok) return stream.status;
     if (!stream.coder.ended_cleanly()) return FormatStatus::bad_stream;
+    if (version_of(model) != envelope.version) return FormatStatus::bad_header;
     return model;
 }
 
 Result<Model> decode_file(std::span<const std::uint8_t> bytes, const Limits& limits) {
     const Result<Envelope> envelope = open_envelope(bytes, limits);
     if (!envelope) return envelope.status();
-    Result<Model> model = decode_stream(envelope->stream);
+    Result<Model> model = decode_stream(*envelope);
     if (!model) return model;
     const FormatStatus status = read_sections(*envelope, memory_for_sections(bytes.size(), limits), *model);
     if (status != FormatStatus::ok) return status;
@@ -47,10 +48,11 @@ Result<Model> decode_file(std::span<const std::uint8_t> bytes, const Limits& lim
 std::vector<std::uint8_t> encode(const Model& model) {
     if (const std::string flaw = find_flaw(model); !flaw.empty()) throw InvalidInput(flaw);
     Model copy = canonical(model);
-    CodecStream stream;
+    CodecStream stream(version_of(copy));
     code_model(stream, copy);
     if (stream.status != FormatStatus::ok) throw InvalidInput(std::string(describe(stream.status)));
-    return seal_envelope(stream.coder.finish(), write_sections(copy));
+    return seal_envelope(stream.coder.finish(), write_sections(copy),
+                         static_cast<std::uint8_t>(stream.version));
 }
 
 Result<Model> decode(std::span<const std::uint8_t> bytes, const Limits& limits) {

@@ -9,8 +9,11 @@
 
 namespace pfgeom {
 
-CodecStream::CodecStream(std::span<const std::uint8_t> bytes)
-    : coder(bytes), derive(DeriveBudget::of_bytes(bytes.size())), memory(bytes.size() * kMemoryPerByte) {}
+CodecStream::CodecStream(std::span<const std::uint8_t> bytes, int format_version)
+    : version(format_version),
+      coder(bytes),
+      derive(DeriveBudget::of_bytes(bytes.size())),
+      memory(bytes.size() * kMemoryPerByte) {}
 
 bool CodecStream::charge(std::size_t count, std::size_t each) {
     if (count > memory / each) {

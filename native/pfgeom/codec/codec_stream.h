@@ -31,16 +31,26 @@ enum StreamKind : std::uint32_t {
     kHasLevelsFlag = 214,  // flags need one
     kScaledFlag = 215,
     kCavityFlag = 216,
+    kMirrorFlag = 217,
     kBoxCentreKind = 218,
+    kStepsKind = 220,
+    kStepCodeKind = 222,
+    kPlaceKind = 224,
+    kKnownTurnKind = 226,
+    kLargestKind = 228,
+    kTurnKind = 230,
+    kUnscaledFlag = 232,
 };
 
 struct CodecStream {
-    CodecStream() = default;                                    ///< writes
-    explicit CodecStream(std::span<const std::uint8_t> bytes);  ///< reads
+    CodecStream() = default;                                                            ///< writes
+    explicit CodecStream(int format_version) : version(format_version) {}               ///< writes
+    explicit CodecStream(std::span<const std::uint8_t> bytes, int format_version = 1);  ///< reads
 
     /// Bytes of memory for what is decoded, beside mixer and hierarchies, by byte of the stream.
     static constexpr std::size_t kMemoryPerByte = std::size_t{8} << 10;
 
+    int version = 1;  ///< of the format: 2 if an object has placements
     EntropyCoder coder;
     ContextMixer mixer;
     DeriveBudget derive;            ///< of the hierarchies

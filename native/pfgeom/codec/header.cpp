@@ -68,7 +68,7 @@ FormatStatus read_sections(std::span<const std::uint8_t> bytes, Envelope& envelo
 }  // namespace
 
 std::vector<std::uint8_t> seal_envelope(std::span<const std::uint8_t> stream,
-                                        std::span<const Section> sections) {
+                                        std::span<const Section> sections, std::uint8_t version) {
     ByteWriter table;
     for (const Section& section : sections) {
         table.varint(2 * static_cast<std::uint64_t>(section.id) + (section.required ? 1 : 0));
@@ -77,7 +77,7 @@ std::vector<std::uint8_t> seal_envelope(std::span<const std::uint8_t> stream,
     }
     ByteWriter out;
     out.append(kMagic);
-    out.byte(kVersion);
+    out.byte(version);
     out.varint(2 * stream.size() + (sections.empty() ? 0 : 1));
     if (!sections.empty()) out.varint(table.bytes().size());
     out.append(stream);
@@ -93,7 +93,7 @@ Result<Envelope> open_envelope(std::span<const std::uint8_t> bytes, const Limits
     reader.take(kMagic.size());
     const std::uint8_t version = reader.byte();
     if (!reader.ok()) return FormatStatus::truncated;
-    if (version != kVersion) return FormatStatus::unknown_version;
+    if (version < kFirstVersion || version > kVersion) return FormatStatus::unknown_version;
 
     const std::uint64_t lengths = reader.varint(), stream_bytes = lengths / 2;
     const std::uint64_t section_bytes = lengths % 2 != 0 ? reader.varint() : 0;
@@ -107,6 +107,7 @@ Result<Envelope> open_envelope(std::span<const std::uint8_t> bytes, const Limits
     if (reader.left() > stream_bytes + section_bytes + kChecksumBytes) return FormatStatus::trailing_bytes;
 
     Envelope envelope;
+    envelope.version = version;
     envelope.stream = reader.take(static_cast<std::size_t>(stream_bytes));
     const auto sections = reader.take(static_cast<std::size_t>(section_bytes));
     const std::uint32_t computed = crc32c(bytes.first(bytes.size() - kChecksumBytes)), stored = reader.u32();

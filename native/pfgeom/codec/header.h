@@ -19,7 +19,8 @@ namespace pfgeom {
 
 /// 0xF5 never occurs in UTF-8 and loses its top bit on a 7-bit line; CR LF changes in a text-mode transfer.
 constexpr std::array<std::uint8_t, 4> kMagic{0xF5, 'p', '\r', '\n'};
-constexpr std::uint8_t kVersion = 1;
+/// Version 2 is that of files in which an object has placements; all others are of version 1.
+constexpr std::uint8_t kFirstVersion = 1, kVersion = 2;
 
 enum class SectionId : std::uint32_t {
     names = 1,
@@ -39,12 +40,14 @@ struct Envelope {
         SectionId id{};
         std::span<const std::uint8_t> content;
     };
+    std::uint8_t version = kFirstVersion;
     std::span<const std::uint8_t> stream;
     std::vector<View> sections;  ///< known ones; unknown optional ones are left out
 };
 
 std::vector<std::uint8_t> seal_envelope(std::span<const std::uint8_t> stream,
-                                        std::span<const Section> sections);
+                                        std::span<const Section> sections,
+                                        std::uint8_t version = kFirstVersion);
 
 /// Checks in this order: magic, version, lengths, checksum, sections.
 Result<Envelope> open_envelope(std::span<const std::uint8_t> bytes, const Limits& limits);

@@ -5,6 +5,8 @@
 #include "pfgeom/codec/object_codec.h"
 #include "pfgeom/codec/promise_codec.h"
 
+#include <algorithm>
+
 namespace pfgeom {
 namespace {
 
@@ -29,6 +31,11 @@ void code_model(CodecStream& stream, Model& model, StreamCost* cost) {
         objects.code(object);
         if (cost) cost->shapes.push_back(objects.shape_bits());
     }
+}
+
+int version_of(const Model& model) {
+    const auto placed = [](const Object& object) { return !object.placements.empty(); };
+    return std::any_of(model.objects.begin(), model.objects.end(), placed) ? 2 : 1;
 }
 
 Model canonical(const Model& model) {

@@ -1,6 +1,7 @@
 #include "pfgeom/codec/object_codec.h"
 
 #include "pfgeom/codec/mesh_part_codec.h"
+#include "pfgeom/codec/placement_codec.h"
 #include "pfgeom/codec/set_tree_codec.h"
 
 #include <algorithm>
@@ -37,9 +38,9 @@ ObjectCoder::ObjectCoder(CodecStream& stream, const Model& model)
 
 void ObjectCoder::code(Object& object) {
     code_frame(object.frame);
-    const double before = stream_.coder.bits_so_far();
+    const double before_shape = stream_.coder.bits_so_far();
     code_shape(object);
-    shape_bits_ = stream_.coder.bits_so_far() - before;
+    shape_bits_ = stream_.coder.bits_so_far() - before_shape;
     code_nesting(object.cavity_of);
     code_size(stream_, object.instances, kInstanceCount);
     for (Similarity& s : object.instances) {
@@ -48,6 +49,11 @@ void ObjectCoder::code(Object& object) {
         for (Vec3& row : s.rows) code_vector(row, kRow);
         code_vector(s.translation, kTranslation);
     }
+    const double before_placements = stream_.coder.bits_so_far();
+    if (stream_.version >= 2 && stream_.ok())
+        code_placements(stream_, object.placements, object.frame.scale_code);
+    shape_bits_ += stream_.coder.bits_so_far() - before_placements;
+    if (!stream_.ok()) return;
     const std::int64_t code =
         std::int64_t{mesh_code_} + code_int(object.mesh_code - mesh_code_, kMeshCodeKind);
     stream_.expect(code >= 0 && code <= 255);

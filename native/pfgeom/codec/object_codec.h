@@ -14,7 +14,7 @@ class ObjectCoder {
 
     /// Each object is predicted from the one before.
     void code(Object& object);
-    /// Bits of the last object's shape.
+    /// Bits of the last object's shape and placements.
     double shape_bits() const { return shape_bits_; }
 
   private:

@@ -62,7 +62,7 @@ SizeReport measure_size(const Model& model) {
     SizeReport report;
     report.total = encode(model).size();
     Model copy = canonical(model);
-    CodecStream stream;
+    CodecStream stream(version_of(copy));
     StreamCost cost;
     code_model(stream, copy, &cost);
     report.bytes_of_object = bytes_of_objects(copy, cost);

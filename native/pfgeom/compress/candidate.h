@@ -57,6 +57,25 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task);
 /// Simplified and coded mesh: any shape; always holds.
 Outcome try_mesh(const Goal& goal, const Task& task);
 
+/// The cheapest candidate that holds, for a closed, oriented island. Nothing: it is for a mesh part.
+std::optional<Outcome> fit_island(const Goal& goal, const Task& task);
+/// The same for an oriented manifold with a border.
+std::optional<Outcome> fit_open_island(const Goal& goal, const Task& task);
+
+/// A file of this one object.
+Model model_of(const Goal& goal, const Outcome& outcome);
+
+/// Of two certified deviations.
+void take_maximum(const Deviation& more, Deviation& deviation);
+
+/// How far the default mesh is from the goal's, and whether that is within its tolerance. The maximum is
+/// proved where it is what counts.
+struct Measured {
+    Deviation deviation;
+    bool holds = false;
+};
+Measured measure(const Goal& goal, const TriangleMesh& mesh, const Task& task);
+
 /// Encodes a model of this one object, decodes it, polygonizes and measures: fills bytes, mesh, deviation,
 /// holds. The maximum is proved where it is what counts.
 void prove(const Goal& goal, Outcome& outcome, const Task& task);

@@ -4,27 +4,26 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
+#include "pfgeom/compress/fit_copies.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 namespace pfgeom {
 namespace {
 
 // Boundary edges closer than this share of the tolerance are one seam.
 constexpr double kSeamShare = 1.0 / 16;
-// Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
-constexpr std::size_t kQuickMesh = 40'000;
-constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
-// Fewer faces than this are not worth a hierarchy.
-constexpr std::size_t kLeastFaces = 100;
-// Nor are fewer than this worth a sheet, which takes some 40 bytes.
-constexpr std::size_t kLeastFacesOfSheet = 16;
+// Islands whose surfaces are so much of the tolerance from being copies are treated as copies.
+constexpr double kCopyShare = 0.25;
 // Every island holds the tolerance on its own; should the whole miss it by what the last measurement sees
 // and the earlier ones did not, all is done again within these shares of it.
 constexpr double kShares[] = {1.0, 0.95, 0.7};
 // From so many islands on they are worked on side by side, one thread each.
 constexpr std::size_t kManyIslands = 8;
+constexpr double kFitting = 0.8;  // of the progress
 
 class Compressor {
   public:
@@ -66,83 +65,79 @@ class Compressor {
         return {mesh, bvh, tolerance, options_.metric, prepared_.diagonal, inward, options_.effort};
     }
 
+    // First those that repeat, then the others one by one.
     void fit_islands() {
         const std::size_t n = prepared_.islands.size();
         chosen_.assign(n, {});
+        first_of_.resize(n);
+        std::iota(first_of_.begin(), first_of_.end(), std::size_t{0});
+        const bool repeats = fit_repeated(part_of(task_, 0.02, 0.02 + kFitting / 2));
+        std::vector<std::size_t> single;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!outcome_of(i)) single.push_back(i);
+        }
+        const double from = repeats ? 0.02 + kFitting / 2 : 0.02;
+        fit_single(single, part_of(task_, from, 0.02 + kFitting));
+    }
+
+    // Does anything repeat?
+    bool fit_repeated(const Task& task) {
+        const double tolerance = share_ * (tolerance_ - moved());
+        const std::vector<CopyGroup> groups =
+            find_copies(prepared_, kCopyShare * tolerance, quiet(task, task.threads));
+        const auto count = static_cast<double>(groups.size());
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            const Task part =
+                part_of(task, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
+            part.report(0, "fit");
+            std::optional<FittedCopies> fitted =
+                fit_copies(groups[g], {prepared_, tolerance, options_.metric, options_.effort}, part);
+            if (!fitted) continue;
+            const std::size_t first = *std::min_element(fitted->islands.begin(), fitted->islands.end());
+            for (const std::size_t i : fitted->islands) first_of_[i] = first;
+            chosen_[first] = std::move(fitted->outcome);
+        }
+        return !groups.empty();
+    }
+
+    void fit_single(const std::vector<std::size_t>& islands, const Task& task) {
+        const std::size_t n = islands.size();
+        const auto done = [n](std::size_t i) { return static_cast<double>(i) / static_cast<double>(n); };
         if (n < kManyIslands) {
-            for (std::size_t i = 0; i < n; ++i) {
-                const double at = static_cast<double>(i) / static_cast<double>(n);
-                const Task part =
-                    part_of(task_, 0.02 + 0.8 * at, 0.02 + 0.8 * (at + 1.0 / static_cast<double>(n)));
+            for (std::size_t k = 0; k < n; ++k) {
+                const Task part = part_of(task, done(k), done(k + 1));
                 part.report(0, "fit");
-                chosen_[i] = fit_island(prepared_.islands[i], part);
+                chosen_[islands[k]] = fit_alone(prepared_.islands[islands[k]], part);
             }
             return;
         }
         constexpr std::size_t kBatch = 64;
         for (std::size_t from = 0; from < n; from += kBatch) {
             const std::size_t count = std::min(kBatch, n - from);
-            parallel_chunks(count, 1, quiet(task_, task_.threads), [&](std::size_t i, std::size_t) {
-                chosen_[from + i] = fit_island(prepared_.islands[from + i], quiet(task_, 1));
+            parallel_chunks(count, 1, quiet(task, task.threads), [&](std::size_t k, std::size_t) {
+                const std::size_t i = islands[from + k];
+                chosen_[i] = fit_alone(prepared_.islands[i], quiet(task, 1));
             });
-            task_.report(0.02 + 0.8 * static_cast<double>(from + count) / static_cast<double>(n), "fit");
+            task.report(done(from + count), "fit");
         }
     }
 
-    // The cheapest candidate that holds; nothing: the island goes into the common mesh part.
-    std::optional<Outcome> fit_island(const Island& island, const Task& task) const {
-        if (!island.closed && island.manifold && island.oriented) return fit_open_island(island, task);
-        if (!island.closed || !island.oriented || island.faces.size() < 8) return {};
+    // Nothing: the island goes into the common mesh part.
+    std::optional<Outcome> fit_alone(const Island& island, const Task& task) const {
+        if (!island.oriented || !(island.closed || island.manifold)) return {};
         const TriangleMesh mesh = extract_island(prepared_, island);
         const Bvh bvh(mesh);
-        const Goal goal = goal_of(mesh, bvh, island.signed_volume < 0);
-        if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
-        if (mesh.faces.size() < kLeastFaces) return {};
-        return goal.metric == Metric::max ? fit_by_max(goal, task) : fit_by_rms(goal, task);
+        if (!island.closed) return fit_open_island(goal_of(mesh, bvh, false), task);
+        return fit_island(goal_of(mesh, bvh, island.signed_volume < 0), task);
     }
 
-    // What is no sheet goes into the mesh part with all the others.
-    std::optional<Outcome> fit_open_island(const Island& island, const Task& task) const {
-        if (island.faces.size() < kLeastFacesOfSheet) return {};
-        const TriangleMesh mesh = extract_island(prepared_, island);
-        const Bvh bvh(mesh);
-        return try_sheet(goal_of(mesh, bvh, false), task);
-    }
+    const std::optional<Outcome>& outcome_of(std::size_t i) const { return chosen_[first_of_[i]]; }
 
-    // A tree comes first: where a shape is made of quadrics nothing else comes near, and neither needs to be
-    // made for comparison. The estimate of the mesh says when that is so.
-    std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) const {
-        const MeshEstimate estimate = estimate_mesh(goal, task);
-        const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
-        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
-        if (best && best->bytes < estimate.least && !all) return best;
-        Outcome plain = try_mesh(goal, task);
-        // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
-        // None has beaten a tree.
-        if (all || (!best && !large) || !plain.holds) {
-            const std::size_t most = std::min(best ? best->bytes : plain.bytes, plain.bytes);
-            take_cheaper(try_hierarchy(goal, most, task), best);
-        }
-        take_cheaper(std::move(plain), best);
-        return best;
+    // Is the island one by itself, or one of the copies of one? Else it is in the common mesh part.
+    bool is_object(std::size_t i) const {
+        const std::optional<Outcome>& outcome = outcome_of(i);
+        return outcome && (outcome->candidate != "mesh" || !outcome->object.placements.empty());
     }
-
-    std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) const {
-        const MeshEstimate estimate = estimate_mesh(goal, task);
-        std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
-        const bool far_below = best && best->bytes < estimate.least && goal.effort != Effort::best;
-        if (!far_below && goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
-        // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
-        // search of that starts too fine.
-        take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kNoLimit, task), best);
-        return best;
-    }
-
-    static void take_cheaper(std::optional<Outcome> outcome, std::optional<Outcome>& best) {
-        if (outcome && outcome->holds && (!best || outcome->bytes < best->bytes)) best = std::move(outcome);
-    }
-
-    bool is_function(std::size_t i) const { return chosen_[i] && chosen_[i]->candidate != "mesh"; }
 
     // Objects in order of nesting (a cavity stands behind what it is taken out of), then one mesh part for
     // the rest.
@@ -151,13 +146,17 @@ class Compressor {
         model_ = {};
         model_.diagonal = prepared_.diagonal;
         of_mesh_part_.reset();
+        objects_.clear();
         std::vector<std::int32_t> object_of(n, -1);
         std::vector<std::size_t> rest;
         for (const std::size_t i : by_nesting()) {
-            if (!is_function(i))
+            if (!is_object(i)) {
                 rest.push_back(i);
-            else
-                object_of[i] = add_function_object(i, object_of);
+                continue;
+            }
+            std::int32_t& object = object_of[first_of_[i]];
+            if (object < 0) object = add_object(first_of_[i], i, object_of);
+            object_of[i] = object;
         }
         std::sort(rest.begin(), rest.end());
         if (!rest.empty()) add_mesh_part(rest);
@@ -177,8 +176,11 @@ class Compressor {
         return order;
     }
 
-    std::int32_t add_function_object(std::size_t i, const std::vector<std::int32_t>& object_of) {
-        Object object = chosen_[i]->object;
+    // `i`: the first of its islands in order of nesting; copies are no cavities.
+    std::int32_t add_object(std::size_t chosen, std::size_t i, const std::vector<std::int32_t>& object_of) {
+        const Outcome& outcome = *chosen_[chosen];
+        objects_.push_back(chosen);
+        Object object = outcome.object;
         const Island& island = prepared_.islands[i];
         const std::int32_t outer =
             island.parent >= 0 ? object_of[static_cast<std::size_t>(island.parent)] : -1;
@@ -186,7 +188,7 @@ class Compressor {
         auto* solid = std::get_if<Solid>(&object.shape);
         auto* tree = std::get_if<SetTree>(&object.shape);
         auto* sheet = std::get_if<Sheet>(&object.shape);
-        if (island.closed && island.signed_volume < 0 && outer >= 0) {
+        if (island.closed && island.signed_volume < 0 && outer >= 0 && object.placements.empty()) {
             object.cavity_of = outer;  // then the solid is the hollow itself
             if (solid != nullptr) solid->nodes.pop_back();
             if (tree != nullptr) tree->complement = false;
@@ -197,7 +199,7 @@ class Compressor {
             }
         }
         if (sheet != nullptr) sheet->surface += offset, sheet->trim += offset;
-        for (Function& f : chosen_[i]->functions) model_.functions.push_back(f);
+        for (const Function& f : outcome.functions) model_.functions.push_back(f);
         model_.objects.push_back(std::move(object));
         return static_cast<std::int32_t>(model_.objects.size()) - 1;
     }
@@ -225,16 +227,23 @@ class Compressor {
     // island's function has no proof, or if all is mesh and bound_mesh says it.
     void promise_functions() {
         double worst = 0;
-        for (std::size_t i = 0; i < chosen_.size(); ++i) {
-            if (!is_function(i)) continue;
+        bool certified = true;
+        const auto add_mesh = [&](const Deviation& d) {
+            worst = std::max(worst, d.certified ? d.max_bound() : d.max());
+            certified = certified && d.certified;
+        };
+        bool functions = false;
+        for (const std::size_t i : objects_) {
+            if (chosen_[i]->candidate == "mesh") {
+                add_mesh(chosen_[i]->deviation);
+                continue;
+            }
             if (chosen_[i]->bound_functions == 0) return;
+            functions = true;
             worst = std::max(worst, chosen_[i]->bound_functions);
         }
-        if (worst == 0) return;
-        const bool certified = !of_mesh_part_ || of_mesh_part_->certified;
-        if (of_mesh_part_) {
-            worst = std::max(worst, certified ? of_mesh_part_->max_bound() : of_mesh_part_->max());
-        }
+        if (!functions) return;
+        if (of_mesh_part_) add_mesh(*of_mesh_part_);
         model_.promise.bound_functions = worst + moved();
         model_.promise.functions_certified = certified;
     }
@@ -278,14 +287,14 @@ class Compressor {
     // Does the file hold the islands' functions, and nothing else, as they were when they were made meshes?
     bool reads_as_proved(const Model& decoded) const {
         for (std::size_t i = 0; i < chosen_.size(); ++i) {
-            if (!is_function(i)) return false;
+            if (!is_object(i)) return false;
         }
         return decoded.functions == model_.functions && decoded.objects == model_.objects;
     }
 
     TriangleMesh mesh_of_islands() const {
         TriangleMesh mesh;
-        for (const std::size_t i : by_nesting()) append(chosen_[i]->mesh, mesh);
+        for (const std::size_t i : objects_) append(chosen_[i]->mesh, mesh);
         return mesh;
     }
 
@@ -295,22 +304,11 @@ class Compressor {
         if (prepared_.defects.degenerate_faces > 0 || prepared_.defects.seam_edges > 0) return {};
         Deviation all;
         all.certified = true;
-        for (const std::optional<Outcome>& island : chosen_) {
-            if (!island->deviation.certified) return {};
-            take_maximum(island->deviation, all);
+        for (const std::size_t i : objects_) {
+            if (!chosen_[i]->deviation.certified) return {};
+            take_maximum(chosen_[i]->deviation, all);
         }
         return all;
-    }
-
-    // Of two certified deviations.
-    static void take_maximum(const Deviation& more, Deviation& deviation) {
-        for (const auto side : {&Deviation::a_to_b, &Deviation::b_to_a}) {
-            OneSided& mine = deviation.*side;
-            const OneSided& other = more.*side;
-            if (other.max > mine.max) mine.max = other.max, mine.worst = other.worst;
-            mine.max_bound = std::max(mine.max_bound, other.max_bound);
-        }
-        deviation.certified = more.certified;
     }
 
     void fill_report(const TriangleMesh& mesh) {
@@ -324,8 +322,12 @@ class Compressor {
         for (std::size_t i = 0; i < chosen_.size(); ++i) {
             IslandReport island;
             island.faces = static_cast<std::int64_t>(prepared_.islands[i].faces.size());
-            island.candidate = chosen_[i] ? chosen_[i]->candidate : "mesh";
-            island.bytes = chosen_[i] ? static_cast<double>(chosen_[i]->bytes) : 0;
+            const std::optional<Outcome>& outcome = outcome_of(i);
+            island.candidate = outcome ? outcome->candidate : "mesh";
+            island.copies =
+                outcome ? std::max<std::int64_t>(1, std::ssize(outcome->object.placements.list)) : 1;
+            island.bytes =
+                outcome ? static_cast<double>(outcome->bytes) / static_cast<double>(island.copies) : 0;
             r.islands.push_back(island);
         }
     }
@@ -336,7 +338,9 @@ class Compressor {
     double tolerance_ = 0;
     double share_ = 1;  // of the tolerance, that the islands may use
     PreparedMesh prepared_;
-    std::vector<std::optional<Outcome>> chosen_;
+    std::vector<std::optional<Outcome>> chosen_;  // of copies: at the first of them
+    std::vector<std::size_t> first_of_;           // island -> the first of its copies, or itself
+    std::vector<std::size_t> objects_;            // rows of chosen_, in the model's order
     std::optional<Deviation> of_mesh_part_;
     Model model_;
     Compressed result_;

@@ -27,8 +27,9 @@ struct CompressOptions {
 /// What became of one island.
 struct IslandReport {
     std::int64_t faces = 0;
-    std::string candidate;  ///< "quadric", "sheet", "tree", "hierarchy" or "mesh"
-    double bytes = 0;       ///< estimated: objects share one stream
+    std::string candidate;    ///< "quadric", "sheet", "tree", "hierarchy" or "mesh"
+    std::int64_t copies = 1;  ///< so many islands, this one included, are one object
+    double bytes = 0;         ///< estimated: objects share one stream, copies one pattern
 };
 
 struct CompressReport {

@@ -15,7 +15,8 @@ std::size_t samples_for(const TriangleMesh& mesh) {
     return std::clamp<std::size_t>(mesh.faces.size() * 10, 10'000, 100'000);
 }
 
-// A file of this one object.
+}  // namespace
+
 Model model_of(const Goal& goal, const Outcome& outcome) {
     Model model;
     model.functions = outcome.functions;
@@ -25,10 +26,34 @@ Model model_of(const Goal& goal, const Outcome& outcome) {
     return model;
 }
 
-}  // namespace
+void take_maximum(const Deviation& more, Deviation& deviation) {
+    for (const auto side : {&Deviation::a_to_b, &Deviation::b_to_a}) {
+        OneSided& mine = deviation.*side;
+        const OneSided& other = more.*side;
+        if (other.max > mine.max) mine.max = other.max, mine.worst = other.worst;
+        mine.max_bound = std::max(mine.max_bound, other.max_bound);
+    }
+    deviation.certified = more.certified;
+}
+
+Measured measure(const Goal& goal, const TriangleMesh& mesh, const Task& task) {
+    const bool by_max = goal.metric == Metric::max;
+    DeviationOptions options;
+    options.samples = by_max ? 0 : samples_for(goal.mesh);
+    options.bound = by_max;
+    options.certify_below = by_max ? goal.tolerance : 0;
+    const Bvh bvh(mesh);
+    const auto once_more = [&] { return measure_deviation(goal.mesh, goal.bvh, mesh, bvh, options, task); };
+    Deviation d = once_more();
+    if (by_max && !d.certified && d.max() <= goal.tolerance) {  // neither proved nor refuted
+        options.samples = samples_for(goal.mesh);
+        d = once_more();
+    }
+    const double error = by_max ? (d.certified ? d.max_bound() : d.max()) : d.rms();
+    return {d, error <= (by_max ? 1.0 : kRmsShare) * goal.tolerance};
+}
 
 void prove(const Goal& goal, Outcome& outcome, const Task& task) {
-    const bool by_max = goal.metric == Metric::max;
     outcome.holds = false;
     const std::vector<std::uint8_t> bytes = encode(model_of(goal, outcome));
     outcome.bytes = bytes.size();
@@ -42,22 +67,9 @@ void prove(const Goal& goal, Outcome& outcome, const Task& task) {
         return;
     }
     if (outcome.mesh.faces.empty()) return;
-    DeviationOptions options;
-    options.samples = by_max ? 0 : samples_for(goal.mesh);
-    options.bound = by_max;
-    options.certify_below = by_max ? goal.tolerance : 0;
-    const Bvh bvh(outcome.mesh);
-    const auto measure = [&] {
-        outcome.deviation = measure_deviation(goal.mesh, goal.bvh, outcome.mesh, bvh, options, task);
-    };
-    measure();
-    const Deviation& d = outcome.deviation;
-    if (by_max && !d.certified && d.max() <= goal.tolerance) {  // neither proved nor refuted
-        options.samples = samples_for(goal.mesh);
-        measure();
-    }
-    const double error = by_max ? (d.certified ? d.max_bound() : d.max()) : d.rms();
-    outcome.holds = error <= (by_max ? 1.0 : kRmsShare) * goal.tolerance;
+    const Measured measured = measure(goal, outcome.mesh, task);
+    outcome.deviation = measured.deviation;
+    outcome.holds = measured.holds;
 }
 
 }  // namespace pfgeom

@@ -1,4 +1,5 @@
 #include "pfgeom/base/error.h"
+#include "pfgeom/base/limits.h"
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/eval/mesh_part.h"
@@ -35,10 +36,26 @@ int depth_for(double half, double size) {
     return depth;
 }
 
+double largest_scale(const Object& object) {
+    double largest = 0;
+    for (const Similarity& s : copies_of(object)) largest = std::max(largest, s.scale);
+    return largest;
+}
+
 double largest_half(const Model& model) {
     double largest = 0;
-    for (const Object& o : model.objects) largest = std::max(largest, o.frame.half());
+    for (const Object& o : model.objects) largest = std::max(largest, o.frame.half() * largest_scale(o));
     return largest;
+}
+
+// What the pattern may miss so that none of its copies misses more.
+double chord_for(const Model& model, const Object& object, const MeshOptions& options) {
+    return options.tolerance ? *options.tolerance / largest_scale(object) : chord_of(model, object);
+}
+
+// The longest cell or edge of the pattern.
+double cell_for(const Model& model, const Object& object, const MeshOptions& options) {
+    return 2 * largest_half(model) / *options.resolution / largest_scale(object);
 }
 
 PolygonizeOptions polygonize_options(const Model& model, const Object& object, const MeshOptions& options) {
@@ -47,16 +64,16 @@ PolygonizeOptions polygonize_options(const Model& model, const Object& object, c
     result.max_depth = kMostDepth;
     const double half = object.frame.half();
     if (options.resolution) {
-        result.min_depth = result.max_depth = depth_for(half, 2 * largest_half(model) / *options.resolution);
+        result.min_depth = result.max_depth = depth_for(half, cell_for(model, object, options));
     } else {
-        result.tolerance = options.tolerance.value_or(chord_of(model, object)) / half;
+        result.tolerance = chord_for(model, object, options) / half;
     }
     return result;
 }
 
 Fineness fineness_of(const Model& model, const Object& object, const MeshOptions& options) {
-    if (!options.resolution) return {.chord = options.tolerance.value_or(chord_of(model, object))};
-    return {.chord = chord_of(model, object), .length = 2 * largest_half(model) / *options.resolution};
+    if (!options.resolution) return {.chord = chord_for(model, object, options)};
+    return {.chord = chord_of(model, object), .length = cell_for(model, object, options)};
 }
 
 void turn_faces(TriangleMesh& mesh) {
@@ -103,6 +120,17 @@ TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
     return copy;
 }
 
+// A few bytes can name many copies of a large mesh.
+void append_copies(const TriangleMesh& mesh, const Object& object, TriangleMesh& all, const Task& task) {
+    const std::vector<Similarity> copies = copies_of(object);
+    if (mesh.faces.size() > (Limits{}.polygon_faces - all.faces.size()) / copies.size())
+        throw LimitExceeded("the copies of the objects have more than 20 million faces");
+    for (const Similarity& s : copies) {
+        task.check();
+        append(copy_of(mesh, s), all);
+    }
+}
+
 // Different sets of coefficients.
 std::int64_t distinct_quadrics(const SetTree& tree) {
     std::vector<std::array<double, 10>> coefficients;
@@ -122,9 +150,7 @@ TriangleMesh to_mesh(const Model& model, const MeshOptions& options, const Task&
         const Object& object = model.objects[i];
         const Task part = part_of(task, at / count, (at + 1) / count);
         part.report(0, "polygonize");
-        const TriangleMesh mesh = mesh_in_place(model, object, options, part);
-        append(mesh, all);
-        for (const Similarity& s : object.instances) append(copy_of(mesh, s), all);
+        append_copies(mesh_in_place(model, object, options, part), object, all, part);
     }
     task.report(1, "polygonize");
     return all;

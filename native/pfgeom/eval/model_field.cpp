@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace pfgeom {
@@ -40,14 +41,14 @@ constexpr double kChordShare = 0.25;
 // One object with its copies; value and gradient are in the world's units.
 struct ModelField::Part {
     Frame frame;
-    std::vector<Similarity> copies;  // besides the one in place
+    std::vector<Similarity> copies;
     std::int32_t cavity_of = -1;
     std::unique_ptr<ScalarField> solid;  // in the frame's cube, which holds it
     std::optional<Bvh> bvh;
     Box box;
 
     Part(const Model& model, const Object& object)
-        : frame(object.frame), copies(object.instances), cavity_of(object.cavity_of) {
+        : frame(object.frame), copies(copies_of(object)), cavity_of(object.cavity_of) {
         const Vec3 h{frame.half(), frame.half(), frame.half()};
         box = {frame.centre() - h, frame.centre() + h};
         if (const auto* s = std::get_if<Solid>(&object.shape)) {
@@ -66,14 +67,28 @@ struct ModelField::Part {
     Jet in_place(const Vec3& p) const {
         if (bvh) return distance_jet(p);
         if (!solid) return {-1e30, {}};
-        const double half = frame.half();
-        const Vec3 local = frame.to_local(p);
         Jet jet;
-        jet.value = solid->value_and_gradient(local, jet.gradient) * half;
+        jet.value = solid->value_and_gradient(frame.to_local(p), jet.gradient) * frame.half();
         // Outside of its cube a solid is empty.
-        const double beyond = std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) - 1;
-        if (beyond > 0) jet.value = std::min(jet.value, -beyond * half);
+        if (const double most = most_beyond_cube(p); most < 0) jet.value = std::min(jet.value, most);
         return jet;
+    }
+
+    double most_beyond_cube(const Vec3& p) const {
+        const Vec3 local = frame.to_local(p);
+        const double beyond = std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) - 1;
+        return -beyond * frame.half();
+    }
+
+    // Far copies need not be asked.
+    bool cannot_exceed(const Vec3& p, double value) const {
+        if (bvh) {
+            const Vec3 nearest = max(box.lo, min(p, box.hi));
+            constexpr double kRounded = 1 - 1e-9;
+            return -kRounded * norm(p - nearest) < value;
+        }
+        const double most = most_beyond_cube(p);
+        return most < 0 && most <= value;
     }
 
     Jet distance_jet(const Vec3& p) const {
@@ -86,9 +101,11 @@ struct ModelField::Part {
 
     // Union of the copies.
     Jet jet(const Vec3& p) const {
-        Jet best = in_place(p);
+        Jet best{-std::numeric_limits<double>::infinity(), {}};
         for (const Similarity& s : copies) {
-            Jet j = in_place(s.apply_inverse(p));
+            const Vec3 local = s.apply_inverse(p);
+            if (cannot_exceed(local, best.value / s.scale)) continue;
+            Jet j = in_place(local);
             j.value *= s.scale;
             j.gradient = s.turn(j.gradient);
             if (j.value > best.value) best = j;
@@ -137,7 +154,6 @@ Vec3 ModelField::gradient(const Vec3& world) const {
 Box ModelField::bounds() const {
     Box all;
     for (const auto& part : parts_) {
-        all.grow(part->box);
         for (const Similarity& s : part->copies) {
             for (int corner = 0; corner < 8; ++corner) {
                 all.grow(s.apply({(corner & 1) != 0 ? part->box.hi.x : part->box.lo.x,

@@ -164,7 +164,9 @@ Flaw flaw_of(const Object& object, const Model& model) {
     for (const Similarity& similarity : object.instances) {
         if (Flaw flaw = flaw_of(similarity); !flaw.empty()) return flaw;
     }
-    return {};
+    if (!object.placements.empty() && !object.instances.empty())
+        return "it has placements and instances as well";
+    return find_flaw(object.placements);
 }
 
 // Walks from each object outwards until an object of an earlier walk; meeting one of its own is a cycle.

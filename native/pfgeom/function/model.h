@@ -4,6 +4,7 @@
 
 #include "pfgeom/base/triangle.h"
 #include "pfgeom/function/frame.h"
+#include "pfgeom/function/placement.h"
 #include "pfgeom/function/quadric.h"
 #include "pfgeom/function/set_tree.h"
 
@@ -124,23 +125,6 @@ struct MeshPart {
     friend bool operator==(const MeshPart&, const MeshPart&) = default;
 };
 
-/// A rotation (or mirror), uniform scale and translation of the world.
-struct Similarity {
-    double scale = 1;
-    std::array<Vec3, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    Vec3 translation;
-
-    Vec3 apply(const Vec3& p) const {
-        return scale * Vec3{dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)} + translation;
-    }
-    Vec3 apply_inverse(const Vec3& p) const { return turn_back((p - translation) / scale); }
-    /// The transposed rotation: of gradients and directions.
-    Vec3 turn_back(const Vec3& d) const { return d.x * rows[0] + d.y * rows[1] + d.z * rows[2]; }
-    Vec3 turn(const Vec3& d) const { return {dot(rows[0], d), dot(rows[1], d), dot(rows[2], d)}; }
-
-    friend bool operator==(const Similarity&, const Similarity&) = default;
-};
-
 /// What one island or segment of the mesh became.
 struct Object {
     Frame frame;  ///< of the functions' cube, or of the mesh part's grid
@@ -151,6 +135,8 @@ struct Object {
     /// inside.
     std::int32_t cavity_of = -1;
     std::vector<Similarity> instances;  ///< further copies, beside the one that `frame` places
+    /// If not empty, the object is a pattern: it lies nowhere but where these put it, and has no `instances`.
+    Placements placements;
     std::uint8_t mesh_code = 0;  ///< chord tolerance of the default mesh: diagonal · 2^(-mesh_code / 4)
 
     friend bool operator==(const Object&, const Object&) = default;
@@ -180,6 +166,9 @@ struct Model {
     std::vector<double> world_transform;    ///< optional: 16 values, row-major, the last row 0 0 0 1
     std::vector<std::int32_t> face_groups;  ///< optional: a label >= 0 for each face of the default mesh
 };
+
+/// Where the object lies: in place (the identity) and its instances, or its placements.
+std::vector<Similarity> copies_of(const Object& object);
 
 /// The default mesh's chord tolerance, in the world's units.
 inline double chord_of(const Model& model, const Object& object) {

@@ -46,11 +46,10 @@ RayScene::RayScene(const Model& model, const Task& task) {
         for (const Box& part : targets_.back()->cover()) box.grow(part);
         if (box.empty()) continue;
         const bool is_cavity = object.cavity_of >= 0 && !std::holds_alternative<MeshPart>(object.shape);
-        pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), false, is_cavity, {}});
-        boxes.push_back(with_margin(box));
-        for (const Similarity& place : object.instances) {
-            pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), true, is_cavity, place});
-            boxes.push_back(with_margin(placed(box, place)));
+        for (const Similarity& place : copies_of(object)) {
+            const bool moved = !(place == Similarity{});
+            pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), moved, is_cavity, place});
+            boxes.push_back(with_margin(moved ? placed(box, place) : box));
         }
     }
     boxes_ = BoxTree(boxes);

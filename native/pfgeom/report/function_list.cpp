@@ -14,13 +14,28 @@ bool has_angles(Kind kind) {
     return kind == Kind::circular_cone || kind == Kind::elliptic_cone || kind == Kind::crossing_planes;
 }
 
-// From an object's cube to the world.
-QuadricShape in_world(QuadricShape shape, const Frame& frame) {
-    shape.centre = frame.to_world(shape.centre);
-    if (has_angles(shape.kind)) return shape;  // tangents
-    for (double& size : shape.sizes) size *= frame.half();
-    return shape;
-}
+// Where the functions of an object lie: in the first of its copies.
+struct Place {
+    Frame frame;
+    Similarity first;
+    std::int32_t copies = 1;
+
+    explicit Place(const Object& object) : frame(object.frame) {
+        const std::vector<Similarity> all = copies_of(object);
+        first = all.front();
+        copies = static_cast<std::int32_t>(all.size());
+    }
+    double half() const { return frame.half() * first.scale; }  // of the cube, in the world
+
+    // From the cube to the world.
+    QuadricShape in_world(QuadricShape shape) const {
+        shape.centre = first.apply(frame.to_world(shape.centre));
+        for (Vec3& axis : shape.axes) axis = first.turn(axis);
+        if (has_angles(shape.kind)) return shape;  // tangents
+        for (double& size : shape.sizes) size *= half();
+        return shape;
+    }
+};
 
 // Does the solid lie on the far side, seen from the centre or the axis?
 bool is_hollow(const QuadricShape& shape, const Quadric& quadric, const QuadricPatch& patch) {
@@ -43,60 +58,64 @@ class FunctionLister {
     std::vector<ListedFunction> run() {
         for (; object_ < static_cast<std::int32_t>(model_.objects.size()); ++object_) {
             const Object& object = model_.objects[static_cast<std::size_t>(object_)];
-            if (const auto* tree = std::get_if<SetTree>(&object.shape)) add(*tree, object.frame);
-            if (const auto* solid = std::get_if<Solid>(&object.shape)) add(*solid, object.frame);
+            if (std::holds_alternative<MeshPart>(object.shape)) continue;
+            const Place place(object);
+            if (const auto* tree = std::get_if<SetTree>(&object.shape)) add(*tree, place);
+            if (const auto* solid = std::get_if<Solid>(&object.shape)) add(*solid, place);
             if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
-                add(sheet->surface, true, object.frame);
-                add(sheet->trim, false, object.frame);
+                add(sheet->surface, true, place);
+                add(sheet->trim, false, place);
             }
         }
         return std::move(list_);
     }
 
   private:
-    void add(const SetTree& tree, const Frame& frame) {
+    void add(const SetTree& tree, const Place& place) {
         const TreeSurface surface = find_surface(tree, task_);
-        const double half = frame.half(), tolerance = model_.promise.tolerance / half;
+        const double half = place.half(), tolerance = model_.promise.tolerance / half;
         for (std::size_t q = 0; q < tree.quadrics.size(); ++q) {
             task_.check();
             const Quadric& quadric = tree.quadrics[q].quadric;
             const QuadricPatch& patch = surface.patches[q];
             const QuadricShape shape = shape_of(quadric, patch.points, tolerance);
             list_.push_back({.object = object_,
-                             .shape = in_world(shape, frame),
+                             .copies = place.copies,
+                             .shape = place.in_world(shape),
                              .surface = !patch.points.empty(),
                              .area = patch.area * half * half,
                              .hollow = is_hollow(shape, quadric, patch)});
         }
     }
 
-    void add(const Solid& solid, const Frame& frame) {
+    void add(const Solid& solid, const Place& place) {
         for (const SetNode& node : solid.nodes) {
-            if (node.kind == SetNode::Kind::function) add(node.a, true, frame);
-            if (node.kind == SetNode::Kind::decide) add(node.f, false, frame);
+            if (node.kind == SetNode::Kind::function) add(node.a, true, place);
+            if (node.kind == SetNode::Kind::decide) add(node.f, false, place);
         }
     }
 
     // A function is listed once, as a surface if it is one anywhere.
-    void add(std::int32_t index, bool surface, const Frame& frame) {
+    void add(std::int32_t index, bool surface, const Place& place) {
         std::int32_t& row = row_[static_cast<std::size_t>(index)];
         if (row < 0) {
             row = static_cast<std::int32_t>(list_.size());
-            list_.push_back(listed(model_.functions[static_cast<std::size_t>(index)], frame));
+            list_.push_back(listed(model_.functions[static_cast<std::size_t>(index)], place));
             list_.back().surface = surface;
         } else if (surface) {
             list_[static_cast<std::size_t>(row)].surface = true;
         }
     }
 
-    ListedFunction listed(const Function& function, const Frame& frame) const {
+    ListedFunction listed(const Function& function, const Place& place) const {
         auto perturbations = static_cast<std::int64_t>(function.perturbations.size());
         for (const Level& level : function.levels)
             perturbations += std::ranges::count_if(level.z, [](std::int32_t z) { return z != 0; });
         const std::vector<Vec3> points = points_on(function.base, {{-1, -1, -1}, {1, 1, 1}});
-        const double tolerance = model_.promise.tolerance / frame.half();
+        const double tolerance = model_.promise.tolerance / place.half();
         return {.object = object_,
-                .shape = in_world(shape_of(function.base, points, tolerance), frame),
+                .copies = place.copies,
+                .shape = place.in_world(shape_of(function.base, points, tolerance)),
                 .perturbations = perturbations};
     }
 

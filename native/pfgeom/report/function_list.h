@@ -12,12 +12,15 @@
 namespace pfgeom {
 
 struct ListedFunction {
-    std::int32_t object = 0;         ///< the first that it is part of
-    QuadricShape shape;              ///< in the mesh's units; of the base, if there are perturbations
+    std::int32_t object = 0;  ///< the first that it is part of
+    std::int32_t copies = 1;  ///< of that object
+    /// In the mesh's units, in the first of the copies; of the base, if there are perturbations.
+    QuadricShape shape;
     std::int64_t perturbations = 0;  ///< with a form factor
     /// Is it a surface of the object? Else it only tells parts of space from each other, or trims a sheet.
     bool surface = true;
-    double area = 0;  ///< of a set tree's quadric: estimate of its part of the surface; else 0: not known
+    double area =
+        0;  ///< of a set tree's quadric: estimate of its part of one copy's surface; else 0: not known
     /// Of spheres, circular cylinders and cones of set trees: the solid lies outside of it, as of a hole.
     bool hollow = false;
 };

@@ -59,6 +59,7 @@ void expect_equal(const Object& a, const Object& b) {
     EXPECT_EQ(a.mesh_code, b.mesh_code);
     ASSERT_EQ(a.instances.size(), b.instances.size());
     for (std::size_t i = 0; i < a.instances.size(); ++i) expect_equal(a.instances[i], b.instances[i]);
+    EXPECT_EQ(a.placements, b.placements);
     ASSERT_EQ(a.shape.index(), b.shape.index());
     std::visit(
         [&b](const auto& shape) { expect_equal(shape, std::get<std::decay_t<decltype(shape)>>(b.shape)); },
@@ -96,6 +97,47 @@ TEST(Codec, WhatWasDecodedEncodesToTheSameBytes) {
         const std::vector<std::uint8_t> bytes = encode(random_model(seed));
         ASSERT_EQ(encode(decoded(bytes)), bytes) << "seed " << seed;
     }
+}
+
+TEST(Codec, PlacementsComeBackAsTheyWere) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const Model model = test::with_placements(random_model(seed), seed);
+        const std::vector<std::uint8_t> bytes = encode(model);
+        EXPECT_EQ(bytes[4], 2) << "version";
+        const Model back = decoded(bytes);
+        ASSERT_EQ(model.objects.size(), back.objects.size());
+        for (std::size_t i = 0; i < model.objects.size(); ++i)
+            expect_equal(model.objects[i], back.objects[i]);
+        EXPECT_EQ(encode(back), bytes);
+        ASSERT_FALSE(HasFailure()) << "seed " << seed;
+    }
+}
+
+TEST(Codec, FilesWithoutPlacementsAreOfVersionOne) {
+    EXPECT_EQ(encode(ball())[4], 1);
+    EXPECT_EQ(encode(random_model(3))[4], 1);
+}
+
+// 200 places of a ball: turns of 1 in 256 take 2 + 3 · 9 bits, places in 1 of 4,096 three times 12, less what
+// their order saves.
+TEST(Codec, APlacementTakesTheBitsOfItsIntegers) {
+    Random random(9);
+    Model model = ball();
+    Placements& p = model.objects[0].placements;
+    p.turn_steps = 256;
+    p.list.resize(200);
+    for (Placement& one : p.list) {
+        for (auto& component : one.turn) component = test::below(random, 511) - 255;
+        one.turn[static_cast<std::size_t>(test::below(random, 4))] = 256;
+        for (auto& at : one.place) at = test::below(random, 4096);
+    }
+    normalise(p);
+    const double each = static_cast<double>(encode(model).size() - encode(ball()).size()) / 200;
+    EXPECT_LE(each, (2 + 27 + 36) / 8.0);
+    for (Placement& one : p.list) one.turn = p.list[0].turn;
+    normalise(p);
+    const double unturned = static_cast<double>(encode(model).size() - encode(ball()).size()) / 200;
+    EXPECT_LE(unturned, 36 / 8.0) << "a turn that all share costs nothing";
 }
 
 TEST(Codec, HierarchiesComeBackWithTheirDerivedGeometry) {

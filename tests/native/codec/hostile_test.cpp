@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -65,8 +66,9 @@ Model with_tree(int depth) {
 }
 
 std::vector<Bytes> small_files() {
-    return {encode(ball()), encode(with_hierarchy(3)), encode(with_mesh_part()), encode(with_curved_part()),
-            encode(with_tree(4))};
+    return {encode(ball()),           encode(with_hierarchy(3)),
+            encode(with_mesh_part()), encode(with_curved_part()),
+            encode(with_tree(4)),     encode(test::with_placements(ball(), 3))};
 }
 
 Bytes flipped(Bytes bytes, std::size_t bit) {
@@ -152,7 +154,7 @@ TEST(Damage, PrefixesOfTheStreamUnderARightChecksumAreHarmless) {
         const Bytes stream(file.begin() + 6, file.end() - 4);
         for (std::size_t n = 0; n < stream.size(); ++n) {
             const Bytes part(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
-            expect_harmless(seal_envelope(part, {}), "prefix " + std::to_string(n));
+            expect_harmless(seal_envelope(part, {}, file[4]), "prefix " + std::to_string(n));
         }
     }
 }
@@ -162,7 +164,8 @@ TEST(Damage, RandomStreamsAreHarmless) {
     for (int i = 0; i < 2000; ++i) {
         Bytes stream(random.below(100));
         for (auto& b : stream) b = static_cast<std::uint8_t>(random.next());
-        expect_harmless(seal_envelope(stream, {}), "stream " + std::to_string(i));
+        const auto version = static_cast<std::uint8_t>(1 + i % 2);
+        expect_harmless(seal_envelope(stream, {}, version), "stream " + std::to_string(i));
     }
 }
 
@@ -273,6 +276,76 @@ TEST(Bombs, LongRunsOfCheapBitsAreHarmless) {
             }
         }
     }
+}
+
+// An object that is everything, then so many placements, then `tail`.
+Bytes many_placements(std::uint32_t n, const Bytes& tail) {
+    CodecStream stream(2);
+    Model model = ball();
+    code_promise(stream, model.diagonal, model.promise);
+    claim(stream, 0, 0), claim(stream, 1, 1);
+    stream.mixer.code_int(stream.coder, 0, kFrameScaleKind);
+    for (int axis = 0; axis < 3; ++axis) code_wide(stream, 0, 256);
+    stream.mixer.code_uint(stream.coder, 0, kShapeKind);
+    claim(stream, 1, 3);
+    stream.mixer.code_uint(stream.coder, static_cast<std::uint32_t>(SetNode::Kind::inside), kNodeKind);
+    code_flag(stream, false, kCavityFlag);
+    claim(stream, 0, 4), claim(stream, n, 5);
+    Bytes bytes = stream.coder.finish();
+    bytes.insert(bytes.end(), tail.begin(), tail.end());
+    return seal_envelope(bytes, {}, 2);
+}
+
+TEST(Bombs, PlacementsBeyondTheBytesAreRefusedAtOnce) {
+    for (const std::uint32_t n : {100'000U, 1U << 20, 1U << 24, 0x7FFFFFFFU, 0xFFFFFFFFU}) {
+        EXPECT_EQ(expect_harmless(many_placements(n, {}), std::to_string(n), kMostSeconds),
+                  FormatStatus::limit_exceeded);
+    }
+    Random random(15);
+    for (int i = 0; i < 300; ++i) {
+        Bytes tail(random.below(200));
+        for (auto& b : tail) b = static_cast<std::uint8_t>(random.next());
+        expect_harmless(many_placements(static_cast<std::uint32_t>(random.below(3000)), tail), "tail");
+    }
+}
+
+// Steps of nothing, turns of nothing, places beyond all bounds: what a writer would never write.
+TEST(Damage, WildPlacementsAreRefused) {
+    const auto status = [](const std::function<void(Placements&)>& damage) {
+        Model model = test::with_placements(ball(), 3);
+        Object& object = model.objects[0];
+        damage(object.placements);
+        CodecStream stream(2);
+        code_model(stream, model);  // without the checks of encode
+        const Bytes bytes = seal_envelope(stream.coder.finish(), {}, 2);
+        return stream.ok() ? expect_harmless(bytes, "wild") : stream.status;
+    };
+    EXPECT_EQ(status([](Placements&) {}), FormatStatus::ok);
+    const std::vector<std::function<void(Placements&)>> wild{
+        [](Placements& p) { p.turn_steps = 0; },
+        [](Placements& p) { p.turn_steps = (1 << 20) + 1; },
+        [](Placements& p) { p.scale_steps = 0; },
+        [](Placements& p) { p.step_code = 961; },
+        [](Placements& p) { p.step_code = -961; },
+        [](Placements& p) { p.step_code = 1 << 21; },
+        [](Placements& p) { p.origin[1] = (std::int64_t{1} << 45) + 1; },
+        [](Placements& p) { p.origin[2] = std::int64_t{1} << 62; },
+        [](Placements& p) { p.list.back().scale = 0; },
+        [](Placements& p) { p.list.back().scale = -1; },
+        [](Placements& p) { p.list.back().scale = (1 << 26) + 1; },
+        [](Placements& p) { p.list.back().place[0] = INT32_MAX; },
+        [](Placements& p) { p.list.back().place[1] = (1 << 30) + 1; },
+        [](Placements& p) {
+            for (Placement& one : p.list) one.place[2] += 1;  // no longer the least origin
+        },
+        [](Placements& p) {
+            p.turn_steps *= 2;
+            for (Placement& one : p.list) {
+                for (auto& component : one.turn) component *= 2;
+            }
+        },
+        [](Placements& p) { p.list.clear(); }};
+    for (std::size_t i = 0; i < wild.size(); ++i) EXPECT_NE(status(wild[i]), FormatStatus::ok) << i;
 }
 
 TEST(Bombs, ManyMeshPartsShareOneAccount) {

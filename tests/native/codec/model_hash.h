@@ -64,10 +64,15 @@ class ModelHash {
         add(t.resolution), add(t.low), add(t.high), add(t.complement), add(t.quadrics), add(t.nodes);
     }
     void add(const Similarity& s) { add(s.scale), add(s.rows), add(s.translation); }
+    void add(const Placement& p) { add(p.turn), add(p.mirrored), add(p.scale), add(p.place); }
+    void add(const Placements& p) {
+        add(p.turn_steps), add(p.scale_steps), add(p.step_code), add(p.origin), add(p.list);
+    }
     void add(const Object& o) {
         add(o.frame.scale_code), add(o.frame.offset), add(std::uint64_t{o.shape.index()});
         std::visit([this](const auto& shape) { add(shape); }, o.shape);
         add(o.cavity_of), add(o.instances), add(o.mesh_code);
+        if (!o.placements.empty()) add(o.placements);
     }
     void add(const Promise& p) {
         add(p.metric == Metric::rms), add(p.tolerance), add(p.bound_mesh), add(p.certified), add(p.rms);

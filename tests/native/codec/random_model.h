@@ -184,6 +184,38 @@ inline Model random_model(std::uint64_t seed) {
     return model;
 }
 
+/// Copies of an object in normal form; some of them turned alike.
+inline Placements random_placements(Random& random, int n) {
+    Placements p;
+    p.turn_steps = 1 + below(random, 300);
+    p.scale_steps = below(random, 2) == 0 ? 1 : 1 + below(random, 100);
+    p.step_code = below(random, 100) - 50;
+    for (auto& o : p.origin) o = below(random, 2000) - 1000;
+    p.list.resize(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < p.list.size(); ++i) {
+        Placement& one = p.list[i];
+        const auto any = [&] { return below(random, 2 * p.turn_steps - 1) - (p.turn_steps - 1); };
+        one.turn = {any(), any(), any(), any()};
+        one.turn[static_cast<std::size_t>(below(random, 4))] = p.turn_steps;
+        if (i > 0 && below(random, 3) == 0) one.turn = p.list[i - 1].turn;
+        one.mirrored = below(random, 3) == 0;
+        one.scale = p.scale_steps == 1 ? 1 : 1 + below(random, 200);
+        for (auto& at : one.place) at = below(random, 3000);
+    }
+    normalise(p);
+    return p;
+}
+
+/// The same model with copies of every object: a file of version 2.
+inline Model with_placements(Model model, std::uint64_t seed) {
+    Random random(seed);
+    for (Object& object : model.objects) {
+        object.instances.clear();
+        object.placements = random_placements(random, 1 + below(random, 12));
+    }
+    return model;
+}
+
 /// One solid of one ball: the smallest file.
 inline Model ball() {
     Model model;

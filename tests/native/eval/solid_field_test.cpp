@@ -1,6 +1,7 @@
 #include "pfgeom/eval/solid_field.h"
 
 #include "eval/random_functions.h"
+#include "pfgeom/base/random.h"
 #include "pfgeom/eval/model_field.h"
 
 #include <gtest/gtest.h>
@@ -95,6 +96,68 @@ TEST(ModelField, InstancesAreCopies) {
     EXPECT_TRUE(field.contains({10.9, 0, 0}));
     EXPECT_FALSE(field.contains({11.1, 0, 0}));
     EXPECT_TRUE(field.bounds().contains({10.9, 0.9, 0}));
+}
+
+// A pattern has no place of its own.
+TEST(ModelField, APatternLiesWhereItsPlacementsAre) {
+    Model model;
+    model.functions = {ball({0.2, 0, 0}, 0.5)};
+    model.diagonal = 2;
+    Object object;
+    object.shape = Solid{{{Kind::function, 0, -1, -1}}};
+    object.placements.turn_steps = 1;
+    object.placements.origin = {10, 0, 0};
+    object.placements.list = {{{1, 0, 0, 0}, false, 1, {0, 0, 0}},   // as it is
+                              {{1, 0, 0, 0}, true, 1, {5, 0, 0}},    // seen in a mirror
+                              {{1, 0, 0, 1}, false, 2, {9, 1, 0}}};  // a quarter turn about z, twice as large
+    ASSERT_EQ(find_flaw(object.placements), "");
+    model.objects = {object};
+    const ModelField field(model);
+    EXPECT_FALSE(field.contains({0.2, 0, 0}));
+    EXPECT_TRUE(field.contains({10.65, 0, 0}));
+    EXPECT_FALSE(field.contains({9.6, 0, 0}));
+    EXPECT_TRUE(field.contains({14.4, 0, 0}));
+    EXPECT_FALSE(field.contains({15.4, 0, 0}));
+    EXPECT_TRUE(field.contains({19, 2.3, 0}));
+    EXPECT_GT(field.gradient({10.65, 0, 0}).x, -10);
+    EXPECT_LT(field.gradient({14.4, 0, 0}).x * field.gradient({10.6, 0, 0}).x, 0) << "mirrored";
+    EXPECT_TRUE(field.bounds().contains({18.1, 1, 0}));
+    EXPECT_FALSE(field.bounds().contains({0, 0, 0}));
+}
+
+// Copies that are far are left out; the field is the same as that of as many objects.
+TEST(ModelField, CopiesAreAsManyObjects) {
+    Random random(12);
+    Model placed;
+    placed.functions = {ball({0.1, 0.2, 0}, 0.6)};
+    placed.diagonal = 2;
+    Object object;
+    object.shape = Solid{{{Kind::function, 0, -1, -1}}};
+    for (int i = 0; i < 20; ++i) {
+        Similarity s;
+        s.scale = 0.5 + random.uniform();
+        s.translation = {6 * random.uniform(), 6 * random.uniform(), 6 * random.uniform()};
+        object.instances.push_back(s);
+    }
+    placed.objects = {object};
+    std::vector<ModelField> single;
+    for (const Similarity& s : copies_of(object)) {
+        Model one = placed;
+        one.objects[0].instances = {s};
+        single.emplace_back(one);
+    }
+    const ModelField field(placed);
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 p{8 * random.uniform() - 1, 8 * random.uniform() - 1, 8 * random.uniform() - 1};
+        double expected = -1e300;
+        Vec3 gradient;
+        for (const ModelField& one : single) {
+            const double value = one.value(p);
+            if (value > expected) expected = value, gradient = one.gradient(p);
+        }
+        EXPECT_EQ(field.value(p), expected);
+        EXPECT_EQ(field.gradient(p), gradient);
+    }
 }
 
 }  // namespace

@@ -120,5 +120,25 @@ TEST(FunctionList, TakesAnyTree) {
     }
 }
 
+// Once for all copies, in the place of the first.
+TEST(FunctionList, APatternsFunctionsAreListedOnce) {
+    Model model = with_tolerance(1e-3);
+    model.objects = {plate_with_hole()};
+    Placements& p = model.objects[0].placements;
+    p.scale_steps = 2;
+    p.origin = {10, 20, 30};
+    p.list = {{{1, 1, 0, 0}, false, 1, {0, 0, 0}},
+              {{1, 0, 0, 0}, true, 2, {9, 0, 0}}};  // about x, half as large
+    const std::vector<ListedFunction> list = list_functions(model);
+    ASSERT_EQ(list.size(), 2U);
+    EXPECT_EQ(list[0].copies, 2);
+    const QuadricShape& hole = list[0].shape;
+    EXPECT_DOUBLE_EQ(hole.sizes[0], 0.5);
+    EXPECT_NEAR(norm(cross(hole.axes[0], Vec3{0, 1, 0})), 0, 1e-15);
+    EXPECT_NEAR(hole.centre.x, 10, 1e-12);
+    EXPECT_NEAR(hole.centre.z, 30, 1e-12);
+    EXPECT_NEAR(list[0].area, 2 * std::numbers::pi * 6 / 4, 0.1);
+}
+
 }  // namespace
 }  // namespace pfgeom

@@ -1,0 +1,64 @@
+#include "pfgeom/compress/candidate.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pfgeom {
+namespace {
+
+// Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
+constexpr std::size_t kQuickMesh = 40'000;
+constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
+// Fewer faces than this are not worth a hierarchy.
+constexpr std::size_t kLeastFaces = 100;
+// Nor are fewer than this worth a sheet, which takes some 40 bytes.
+constexpr std::size_t kLeastFacesOfSheet = 16;
+
+void take_cheaper(std::optional<Outcome> outcome, std::optional<Outcome>& best) {
+    if (outcome && outcome->holds && (!best || outcome->bytes < best->bytes)) best = std::move(outcome);
+}
+
+// A tree comes first: where a shape is made of quadrics nothing else comes near, and neither needs to be made
+// for comparison. The estimate of the mesh says when that is so.
+std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
+    const MeshEstimate estimate = estimate_mesh(goal, task);
+    const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
+    std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
+    if (best && best->bytes < estimate.least && !all) return best;
+    Outcome plain = try_mesh(goal, task);
+    // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
+    // None has beaten a tree.
+    if (all || (!best && !large) || !plain.holds) {
+        const std::size_t most = std::min(best ? best->bytes : plain.bytes, plain.bytes);
+        take_cheaper(try_hierarchy(goal, most, task), best);
+    }
+    take_cheaper(std::move(plain), best);
+    return best;
+}
+
+std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
+    const MeshEstimate estimate = estimate_mesh(goal, task);
+    std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
+    const bool far_below = best && best->bytes < estimate.least && goal.effort != Effort::best;
+    if (!far_below && goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
+    // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
+    // search of that starts too fine.
+    take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kNoLimit, task), best);
+    return best;
+}
+
+}  // namespace
+
+std::optional<Outcome> fit_island(const Goal& goal, const Task& task) {
+    if (goal.mesh.faces.size() < 8) return {};
+    if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
+    if (goal.mesh.faces.size() < kLeastFaces) return {};
+    return goal.metric == Metric::max ? fit_by_max(goal, task) : fit_by_rms(goal, task);
+}
+
+std::optional<Outcome> fit_open_island(const Goal& goal, const Task& task) {
+    if (goal.mesh.faces.size() < kLeastFacesOfSheet) return {};
+    return try_sheet(goal, task);
+}
+
+}  // namespace pfgeom

@@ -1,0 +1,15 @@
+#include "pfgeom/function/model.h"
+
+namespace pfgeom {
+
+std::vector<Similarity> copies_of(const Object& object) {
+    std::vector<Similarity> copies;
+    const Placements& p = object.placements;
+    for (std::size_t i = 0; i < p.list.size(); ++i) copies.push_back(p.similarity(i, object.frame.centre()));
+    if (!p.empty()) return copies;
+    copies.emplace_back();
+    copies.insert(copies.end(), object.instances.begin(), object.instances.end());
+    return copies;
+}
+
+}  // namespace pfgeom
