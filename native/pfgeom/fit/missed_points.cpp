@@ -74,7 +74,7 @@ class Search {
     MissedPoint closest(const Vec3& p, std::int32_t origin) {
         const ClosestPoint found = bvh_.closest(p, std::numeric_limits<double>::infinity(), hint_);
         hint_ = found.face;
-        const std::size_t row = static_cast<std::size_t>(found.face) / (kParts * kParts);
+        const std::size_t row = static_cast<std::size_t>(found.face / (kParts * kParts));
         MissedPoint result{p, origin, left_[row], found.squared_distance};
         if (result.squared > limit_ * limit_)
             result.squared = std::min(result.squared, foot_point(p, surface(row)).squared);
