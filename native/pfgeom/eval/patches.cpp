@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace pfgeom {
 namespace {
@@ -45,6 +46,7 @@ class Divider {
         for (std::size_t v = 0; v < part_.positions.size(); ++v)
             mesh_.vertices.push_back(corner(object_, part_, static_cast<std::int32_t>(v)));
         for (std::size_t e = 0; e < bulges_.size(); ++e) parts_.push_back(parts(e, fineness));
+        even_out();
         check_size();
         for (std::size_t e = 0; e < bulges_.size(); ++e) add_edge(e);
     }
@@ -63,6 +65,20 @@ class Divider {
         const double by_chord = std::sqrt(norm(bulges_[edge]) / fineness.chord);
         const double by_length = bulges_[edge] == Vec3{} ? 1 : norm(chord) / fineness.length;
         return static_cast<int>(std::clamp(std::ceil(std::max(by_chord, by_length)), 1.0, 1.0 * kMostParts));
+    }
+
+    // A straight edge of a curved face needs no division for its own sake, but long thin triangles along it
+    // are off by as much more as it has fewer parts than a quarter of the finest edge.
+    void even_out() {
+        std::vector<int> least = parts_;
+        for (const Triangle& edges : edges_.of_face) {
+            const int quarter = (most_parts(edges) + 3) / 4;
+            for (const std::int32_t e : edges) {
+                int& parts = least[static_cast<std::size_t>(e)];
+                parts = std::max(parts, quarter);
+            }
+        }
+        parts_ = std::move(least);
     }
 
     void check_size() const {

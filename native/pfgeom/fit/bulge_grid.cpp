@@ -22,11 +22,12 @@ constexpr std::array<std::array<std::int32_t, 2>, 9> kOthers{
 class BulgeSnapper {
   public:
     BulgeSnapper(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Frame& frame,
-                 MeshPart& part)
+                 MeshPart& part, bool settled)
         : mesh_(mesh),
           error_(error),
           limits_(limits),
           part_(part),
+          settled_(settled),
           edges_(EdgesOfFaces::of(part.faces)),
           axes_(edge_axes(part, edges_)),
           faces_at_(edges_.ends.size()),
@@ -39,7 +40,7 @@ class BulgeSnapper {
         part_.bulges.assign(edges_.ends.size(), {});
     }
 
-    std::size_t run(const Task& task) {
+    std::vector<EdgeEnds> run(const Task& task) {
         std::vector<std::size_t> open(faces_at_.size());
         std::iota(open.begin(), open.end(), std::size_t{0});
         for (int round = 0; round < kRounds && !open.empty(); ++round) {
@@ -50,7 +51,12 @@ class BulgeSnapper {
             }
             open = std::move(failed);
         }
-        return open.size();
+        std::vector<EdgeEnds> ends;
+        for (const std::size_t row : open) {
+            const auto& [face, k] = faces_at_[row][0];
+            ends.push_back({mesh_.face(face)[k], mesh_.face(face)[(k + 1) % 3]});
+        }
+        return ends;
     }
 
   private:
@@ -106,7 +112,10 @@ class BulgeSnapper {
             least = c;
             best = b;
         };
-        for (const std::int32_t i : kStraight) try_bulge({rounded.normal + i, 0});
+        if (settled_) try_bulge(rounded);
+        const bool stays = settled_ && least <= limit;
+        for (std::size_t i = 0; i < kStraight.size() && !stays; ++i)
+            try_bulge({rounded.normal + kStraight[i], 0});
         // Creases and borders need it; and where the faces have turned since a bulge was found, it leans.
         for (std::size_t i = 0; i < kOthers.size() && least > limit; ++i)
             try_bulge({rounded.normal + kOthers[i][0], rounded.sideways + kOthers[i][1]});
@@ -121,6 +130,7 @@ class BulgeSnapper {
     CollapseError& error_;
     const CollapseLimits& limits_;
     MeshPart& part_;
+    bool settled_;
     EdgesOfFaces edges_;
     std::vector<EdgeAxes> axes_;
     std::vector<std::vector<Side>> faces_at_;  // of each edge
@@ -130,9 +140,9 @@ class BulgeSnapper {
 
 }  // namespace
 
-std::size_t snap_bulges(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits,
-                        const Frame& frame, MeshPart& part, const Task& task) {
-    return BulgeSnapper(mesh, error, limits, frame, part).run(task);
+std::vector<EdgeEnds> snap_bulges(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits,
+                                  const Frame& frame, MeshPart& part, bool settled, const Task& task) {
+    return BulgeSnapper(mesh, error, limits, frame, part, settled).run(task);
 }
 
 }  // namespace pfgeom

@@ -1,6 +1,6 @@
 #include "pfgeom/fit/collapse_error.h"
 
-#include "pfgeom/fit/nearest_face.h"
+#include "pfgeom/fit/missed_points.h"
 #include "pfgeom/fit/symmetric3.h"
 
 #include <algorithm>
@@ -51,6 +51,14 @@ void CollapseError::add(const Vec3& p, double weight, std::int32_t face) {
     total_weight_ += weight;
 }
 
+void CollapseError::add(const std::vector<MissedPoint>& missed) {
+    for (const MissedPoint& m : missed) {
+        std::int32_t& first = first_[static_cast<std::size_t>(m.face)];
+        samples_.push_back({m.p, 0, m.squared, first, m.origin});
+        first = static_cast<std::int32_t>(samples_.size()) - 1;
+    }
+}
+
 // Vertices (once each) and the inside of each face: its centroid, or a lattice if it is large.
 void CollapseError::sample_faces(const TriangleMesh& mesh, double spacing) {
     std::vector<std::uint8_t> seen(mesh.vertices.size(), 0);
@@ -89,21 +97,17 @@ double CollapseError::forward(const Patch& patch, double limit) const {
     const bool by_max = metric_ == Metric::max;
     const double cap = by_max ? limit * limit : kInfinity;
     double cost = 0;
-    const NearestFace nearest(patch);
+    const NearestFace nearest(patch, tolerance_);
+    const auto enough = [&] { return by_max ? cost : measured_out(); };
+    const auto add_sample = [&](const Sample& sample, const NearestFace::Found& found, std::int32_t) {
+        if (by_max)
+            cost = std::max(cost, found.squared);
+        else
+            cost += sample.weight * (found.squared - sample.squared);
+        return found.squared <= cap;
+    };
     for (const std::int32_t f : patch.before) {
-        std::size_t likely = nearest.row_of(f);
-        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
-             s = samples_[static_cast<std::size_t>(s)].next) {
-            const Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const NearestFace::Found found = nearest(sample.p, likely, by_max ? cost : -1);
-            likely = found.row;
-            if (found.squared > cap) return kInfinity;
-            if (by_max)
-                cost = std::max(cost, found.squared);
-            else
-                cost += sample.weight * (found.squared - sample.squared);
-        }
-        if (!by_max && cost > limit) return kInfinity;
+        if (!visit_samples(nearest, f, enough, add_sample) || (!by_max && cost > limit)) return kInfinity;
     }
     return by_max ? std::sqrt(cost) : cost;
 }
@@ -138,9 +142,8 @@ double CollapseError::rims(const Patch& patch, double limit) const {
 // Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface
 // they change far more slowly, as slope_ has it. `surface` makes points of parameters.
 template <class Surface>
-double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double longest,
+double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double finest,
                                double limit, std::int32_t hint) const {
-    const double finest = std::max(finest_ * tolerance_, longest / parts_);
     double worst = 0;
     std::vector<std::array<Vec3, 3>> parts_left{corners};
     while (!parts_left.empty()) {
@@ -171,11 +174,12 @@ double CollapseError::backward(const Patch& patch, double limit) const {
         if (patch.curved()) {
             const CurvedTriangle curved = patch.surface(row);
             const auto at = [&curved](const Vec3& weights) { return curved.at(weights); };
-            worst =
-                std::max(worst, farthest({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, at, longest(t), limit, hint));
+            const double finest = std::max(finest_ * tolerance_, longest(t) / (kCurvedParts * parts_));
+            worst = std::max(worst, farthest({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, at, finest, limit, hint));
         } else {
             const auto itself = [](const Vec3& p) { return p; };
-            worst = std::max(worst, farthest(t, itself, longest(t), limit, hint));
+            const double finest = std::max(finest_ * tolerance_, longest(t) / parts_);
+            worst = std::max(worst, farthest(t, itself, finest, limit, hint));
         }
     }
     return worst <= limit ? worst : kInfinity;
@@ -187,50 +191,38 @@ Vec3 CollapseError::fitted(const Patch& patch) const {
     Symmetric3 system;
     Vec3 right;
     double trace = 0;
-    const NearestFace nearest(patch);
-    for (const std::int32_t f : patch.before) {
-        std::size_t likely = nearest.row_of(f);
-        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
-             s = samples_[static_cast<std::size_t>(s)].next) {
-            const Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const NearestFace::Found found = nearest(sample.p, likely, -1);
-            likely = found.row;
-            const auto& t = patch.triangles[found.row];
-            const double lambda = weight_of_corner(t, found.point), d = std::sqrt(found.squared);
-            const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
-            const Vec3 direction = d > 1e-9 * spacing_ ? (sample.p - found.point) / d : normal;
-            const double weight = metric_ == Metric::max ? found.squared : sample.weight;
-            system.add(direction * lambda, weight);
-            right += direction * (lambda * d * weight);
-            trace += lambda * lambda * weight;
-        }
-    }
+    visit_samples(patch, [&](const Sample& sample, const auto& found, int) {
+        const auto& t = patch.triangles[found.row];
+        const double lambda = weight_of_corner(t, found.point), d = std::sqrt(found.squared);
+        const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
+        const Vec3 direction = d > 1e-9 * spacing_ ? (sample.p - found.point) / d : normal;
+        const double weight = metric_ == Metric::max ? found.squared : sample.weight;
+        system.add(direction * lambda, weight);
+        right += direction * (lambda * d * weight);
+        trace += lambda * lambda * weight;
+    });
     system.add_diagonal(0.02 * trace);
     return patch.triangles[0][0] + system.solve(right);
 }
 
 void CollapseError::commit(const Patch& patch) {
-    std::vector<std::int32_t> moved;
-    std::vector<std::size_t> rows;
-    const NearestFace nearest(patch);
-    for (const std::int32_t f : patch.before) {
-        std::size_t likely = nearest.row_of(f);
-        std::int32_t& first = first_[static_cast<std::size_t>(f)];
-        for (std::int32_t s = first; s >= 0; s = samples_[static_cast<std::size_t>(s)].next) {
-            Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const NearestFace::Found found = nearest(sample.p, likely, -1);
-            likely = found.row;
-            sum_ += sample.weight * (found.squared - sample.squared);
-            sample.squared = found.squared;
-            moved.push_back(s);
-            rows.push_back(likely);
-        }
-        first = -1;
-    }
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-        std::int32_t& first = first_[static_cast<std::size_t>(patch.after[rows[i]])];
-        samples_[static_cast<std::size_t>(moved[i])].next = first;
-        first = moved[i];
+    struct Moved {
+        std::int32_t sample;
+        std::size_t row;
+        double squared;
+    };
+    std::vector<Moved> moved;
+    visit_samples(patch, [&](const Sample&, const auto& found, std::int32_t index) {
+        moved.push_back({index, found.row, found.squared});
+    });
+    for (const std::int32_t f : patch.before) first_[static_cast<std::size_t>(f)] = -1;
+    for (const Moved& m : moved) {
+        Sample& sample = samples_[static_cast<std::size_t>(m.sample)];
+        sum_ += sample.weight * (m.squared - sample.squared);
+        sample.squared = m.squared;
+        std::int32_t& first = first_[static_cast<std::size_t>(patch.after[m.row])];
+        sample.next = first;
+        first = m.sample;
     }
 }
 

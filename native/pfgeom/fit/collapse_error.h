@@ -7,7 +7,9 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/fit/collapse_mesh.h"
+#include "pfgeom/fit/feature_lines.h"
 #include "pfgeom/fit/integer_grid.h"
+#include "pfgeom/fit/nearest_face.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/bvh.h"
 
@@ -18,7 +20,7 @@
 
 namespace pfgeom {
 
-struct Spoke;
+struct MissedPoint;
 
 class CollapseError {
   public:
@@ -45,12 +47,18 @@ class CollapseError {
     }
     bool quantised() const { return grid_.has_value(); }
     Vec3 placed(const Vec3& p) const { return grid_ ? grid_->point(grid_->nearest(p)) : p; }
+    /// Of curved patches: edges along the borders and creases of the original are to follow them.
+    void follow_lines(const TriangleMesh& original, const Task& task) { lines_.emplace(original, task); }
     /// From now on backward() looks closely, at several times the cost.
     void measure_finely() {
         slope_ = 0.5;
         finest_ = 0.2;
         parts_ = 16;
     }
+    /// For faces with higher ids than the original's.
+    void make_room(const CollapseMesh& mesh) { first_.resize(mesh.face_ids(), -1); }
+    /// More samples, without a weight.
+    void add(const std::vector<MissedPoint>& missed);
     /// Hands the samples over.
     void commit(const Patch& patch);
 
@@ -66,16 +74,45 @@ class CollapseError {
         std::int32_t next = -1;  // of the same face
         std::int32_t origin;     // face of the original
     };
+    /// Calls visit(sample, found, index) for the samples of a face that a patch replaces, until it returns
+    /// false (then that is returned). Faces as close as enough() are not measured out.
+    template <class Enough, class Visit>
+    bool visit_samples(const NearestFace& nearest, std::int32_t f, Enough enough, Visit visit) const {
+        std::size_t likely = nearest.row_of(f);
+        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
+             s = samples_[static_cast<std::size_t>(s)].next) {
+            const Sample& sample = samples_[static_cast<std::size_t>(s)];
+            const NearestFace::Found found = nearest(sample.p, likely, enough());
+            likely = found.row;
+            if (!visit(sample, found, s)) return false;
+        }
+        return true;
+    }
+    /// Of all of its faces, each measured out.
+    template <class Visit>
+    void visit_samples(const Patch& patch, Visit visit) const {
+        const NearestFace nearest(patch, tolerance_);
+        for (const std::int32_t f : patch.before) {
+            visit_samples(nearest, f, measured_out, [&](const auto&... sample) {
+                visit(sample...);
+                return true;
+            });
+        }
+    }
+    static double measured_out() { return -1; }
     template <class Surface>
-    double farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double longest, double limit,
+    double farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double finest, double limit,
                     std::int32_t hint) const;
     double rims(const Patch& patch, double limit) const;
     void add(const Vec3& p, double weight, std::int32_t face);
     void sample_edges(const TriangleMesh& mesh, double spacing);
     void sample_faces(const TriangleMesh& mesh, double spacing);
 
+    Vec3 first_bulge(const Vec3& middle, const Spoke& spoke) const;
+    Spokes spokes_of(const Patch& patch) const;
     Vec3 whole_steps(const Vec3& bulge, const Spoke& spoke) const;
 
+    std::optional<FeatureLines> lines_;
     std::optional<Grid> grid_;
     double bulge_step_ = 0;
     Metric metric_;
@@ -86,6 +123,7 @@ class CollapseError {
     double slope_ = 0.13;
     double finest_ = 0.5;
     int parts_ = 10;
+    static constexpr int kCurvedParts = 3;  // times as many: patches are larger (os-plane: by 6 tolerances)
     Bvh bvh_;
     std::vector<Sample> samples_;
     std::vector<std::int32_t> first_;  // of each face: its samples

@@ -172,6 +172,35 @@ void CollapseMesh::collapse(std::int32_t u, std::int32_t v, const Patch& patch) 
     move(v, patch);
 }
 
+std::int32_t CollapseMesh::split(std::int32_t u, std::int32_t v) {
+    const auto middle = static_cast<std::int32_t>(points_.size());
+    points_.emplace_back();
+    at_.emplace_back();
+    const std::vector<std::int32_t> at_u = faces_at(u);
+    for (const std::int32_t f : at_u) {
+        if (!has(face(f), v)) continue;
+        std::size_t k = corner_of(face(f), u);
+        if (face(f)[(k + 1) % 3] != v) k = (k + 2) % 3;
+        const auto [a, b, c] = turned(face(f), k);
+        const auto bulges = turned(bulges_[static_cast<std::size_t>(f)], k);
+        const CurvedTriangle surface{{point(a), point(b), point(c)}, bulges};
+        const Vec3 m = surface.at({0.5, 0.5, 0}), half = bulges[0] / 4;
+        const Vec3 across = surface.at({0.25, 0.25, 0.5}) - (m + point(c)) * 0.5;
+        points_.back() = m;
+        const auto other = static_cast<std::int32_t>(faces_.size());
+        faces_[static_cast<std::size_t>(f)] = {a, middle, c};
+        bulges_[static_cast<std::size_t>(f)] = {half, across, bulges[2]};
+        faces_.push_back({middle, b, c});
+        bulges_.push_back({half, bulges[1], across});
+        at_.back().insert(at_.back().end(), {f, other});
+        std::replace(at_[static_cast<std::size_t>(b)].begin(), at_[static_cast<std::size_t>(b)].end(), f,
+                     other);
+        at_[static_cast<std::size_t>(c)].push_back(other);
+        ++alive_;
+    }
+    return middle;
+}
+
 std::vector<std::int32_t> CollapseMesh::faces_left() const {
     std::vector<std::int32_t> left;
     for (std::size_t f = 0; f < faces_.size(); ++f) {

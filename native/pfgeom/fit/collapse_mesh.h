@@ -60,6 +60,12 @@ class CollapseMesh {
     void move(std::int32_t v, const Patch& patch);
     void collapse(std::int32_t u, std::int32_t v, const Patch& patch);
 
+    /// Divides the curved faces at an edge at its middle, which leaves their surface as it is; returns the
+    /// new vertex.
+    std::int32_t split(std::int32_t u, std::int32_t v);
+    /// Faces that there have ever been: no id of a face is as high.
+    std::size_t face_ids() const { return faces_.size(); }
+
     /// The bulge of edge k of face f (from corner k to the next).
     const Vec3& bulge(std::int32_t f, std::size_t k) const { return bulges_[static_cast<std::size_t>(f)][k]; }
     void set_bulge(std::int32_t f, std::size_t k, const Vec3& b) {

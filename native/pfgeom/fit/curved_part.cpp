@@ -1,8 +1,8 @@
 #include "pfgeom/fit/curved_part.h"
 
-#include "pfgeom/fit/bulge_grid.h"
 #include "pfgeom/fit/collapse.h"
 #include "pfgeom/fit/grid.h"
+#include "pfgeom/fit/mend_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ constexpr double kStep = 0.8;
 constexpr int kBulgeCode = 4;
 // What collapses may use before the vertices are on the grid (then nearly all find a place), and after: what
 // is collapsed on the grid has paid for its rounding already.
-constexpr double kFirstShare = 0.75, kLaterShare = 0.95;
+constexpr double kFirstShare = 0.75, kLaterShare = 0.97;
 // What coarser lattices may use, and whole steps of the bulges.
-constexpr double kLatticeShare = 0.97, kBulgeShare = 0.985;
+constexpr double kLatticeShare = 0.98, kBulgeShare = 1;
 constexpr int kRounds = 3;
 // As in simplify.cpp.
 constexpr double kSpacing = 3, kMostSamples = 2e5, kWorstOfRms = 8;
@@ -35,6 +35,7 @@ Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options,
     CollapseMesh work(mesh, true);
     CollapseError error(mesh, options.metric, goal,
                         std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples)), task);
+    error.follow_lines(mesh, task);
     task.report(0, "patches");
     collapse_edges(work, error, within(kFirstShare), task);
     relax_vertices(work, error, within(kFirstShare), task);
@@ -48,10 +49,7 @@ Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options,
         collapse_edges(work, error, within(kLaterShare), task);
     }
     snap_vertices(work, error, within(kLatticeShare), grid, true, task);
-    Object object = part_on_grid(work.result(), grid);
-    auto& part = std::get<MeshPart>(object.shape);
-    part.bulge_code = bulge_code;
-    snap_bulges(work, error, within(kBulgeShare), grid.frame, part, task);
+    Object object = mended_part(mesh, work, error, within(kBulgeShare), grid, bulge_code, task);
     task.report(1, "patches");
     return object;
 }

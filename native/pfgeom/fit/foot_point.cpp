@@ -9,7 +9,7 @@ namespace {
 // distance.
 constexpr int kSteps = 2;
 // A step that moves the weights by less is the last.
-constexpr double kSettled = 1e-4;
+constexpr double kSettled = 1e-3;
 
 }  // namespace
 
@@ -42,12 +42,12 @@ Vec3 closest_weights(const Vec3& p, const std::array<Vec3, 3>& corners) {
     return {1 - v - w, v, w};
 }
 
-FootPoint foot_point(const Vec3& p, const CurvedTriangle& triangle) {
-    Vec3 w = closest_weights(p, triangle.corners);
+FootPoint foot_point(const Vec3& p, const CurvedTriangle& triangle, const Vec3& start, double good_enough) {
+    Vec3 w = start;
     FootPoint best{w, triangle.at(w), 0};
     best.squared = squared_norm(p - best.point);
     if (triangle.flat()) return best;
-    for (int i = 0; i < kSteps; ++i) {
+    for (int i = 0; i < kSteps && best.squared > good_enough; ++i) {
         const Vec3 next = closest_weights(p, triangle.tangent(w));
         const Vec3 point = triangle.at(next);
         const double squared = squared_norm(p - point), moved = squared_norm(next - w);
@@ -56,6 +56,10 @@ FootPoint foot_point(const Vec3& p, const CurvedTriangle& triangle) {
         if (moved < kSettled * kSettled) break;
     }
     return best;
+}
+
+FootPoint foot_point(const Vec3& p, const CurvedTriangle& triangle) {
+    return foot_point(p, triangle, closest_weights(p, triangle.corners), -1);
 }
 
 }  // namespace pfgeom

@@ -53,9 +53,7 @@ class Snapper {
 
     /// Measures finely; moves what is over the limit, and its neighbours, from grid point to grid point while
     /// that makes the worst better.
-    bool mend(double limit, const Task& task) {
-        std::vector<std::int32_t> open(mesh_.vertex_count());
-        std::iota(open.begin(), open.end(), 0);
+    bool mend(std::vector<std::int32_t> open, double limit, const Task& task) {
         for (int round = 0; round < kMendingRounds && !open.empty(); ++round) {
             std::vector<std::int32_t> failed;
             for (const std::int32_t v : open) {
@@ -211,7 +209,14 @@ bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimit
     if (limits.metric != Metric::max) return true;
     if (!persistent && static_cast<double>(failed) > 4 + kHopeless * static_cast<double>(count)) return false;
     error.measure_finely();
-    return snapper.mend(limits.forward, task);
+    std::vector<std::int32_t> all(mesh.vertex_count());
+    std::iota(all.begin(), all.end(), 0);
+    return snapper.mend(std::move(all), limits.forward, task);
+}
+
+bool mend_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
+                   std::vector<std::int32_t> open, const Task& task) {
+    return Snapper(mesh, error, limits, grid).mend(std::move(open), limits.forward, task);
 }
 
 }  // namespace pfgeom

@@ -6,6 +6,9 @@
 #include "pfgeom/fit/integer_grid.h"
 #include "pfgeom/function/model.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace pfgeom {
 
 /// Moves each vertex (the bulges at it follow) onto the grid, within the limits if that can be: along the
@@ -13,5 +16,10 @@ namespace pfgeom {
 /// single steps. Coarse lattices cost fewer bits.
 bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
                    bool persistent, const Task& task);
+
+/// The last part of that, of vertices that are on the grid: which of `open` are over the limits, and their
+/// neighbours, move from grid point to grid point while that makes the worst better.
+bool mend_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
+                   std::vector<std::int32_t> open, const Task& task);
 
 }  // namespace pfgeom

@@ -7,18 +7,40 @@
 #include <cmath>
 
 namespace pfgeom {
+namespace {
 
-NearestFace::NearestFace(const Patch& patch) : patch_(patch) {
-    for (std::size_t row = 0; row < patch.bulges.size(); ++row) {
-        const auto& [a, b, c] = patch.triangles[row];
-        const Vec3 centre = (a + b + c) / 3;
-        const double reach =
-            std::max({squared_norm(a - centre), squared_norm(b - centre), squared_norm(c - centre)});
+// A foot point whose weights are all above this is inside its face.
+constexpr double kInside = 1e-3;
+
+double least(const Vec3& w) {
+    return std::min({w.x, w.y, w.z});
+}
+
+}  // namespace
+
+NearestFace::NearestFace(const Patch& patch, double near) : patch_(patch), near_squared_(near * near) {
+    rows_.reserve(patch.bulges.size());
+    for (std::size_t i = 0; i < patch.bulges.size(); ++i) {
+        const auto& [a, b, c] = patch.triangles[i];
+        Row row;
+        row.centre = (a + b + c) / 3;
         // 4 (uv |b0| + vw |b1| + wu |b2|) is no more than 4/3 of the largest.
-        const auto& bulges = patch.bulges[row];
-        const double bend =
-            std::max({squared_norm(bulges[0]), squared_norm(bulges[1]), squared_norm(bulges[2])});
-        balls_.push_back({centre, std::sqrt(reach) + 4.0 / 3 * std::sqrt(bend)});
+        const auto& bulges = patch.bulges[i];
+        row.bend =
+            4.0 / 3 *
+            std::sqrt(std::max({squared_norm(bulges[0]), squared_norm(bulges[1]), squared_norm(bulges[2])}));
+        row.radius = std::sqrt(std::max({squared_norm(a - row.centre), squared_norm(b - row.centre),
+                                         squared_norm(c - row.centre)})) +
+                     row.bend;
+        const Vec3 normal = cross(b - a, c - a);
+        const double area = squared_norm(normal);
+        if (area > 0) {
+            row.first = cross(c - a, normal) / area;
+            row.second = cross(normal, b - a) / area;
+            row.first_offset = dot(a, row.first);
+            row.second_offset = dot(a, row.second);
+        }
+        rows_.push_back(row);
     }
 }
 
@@ -27,29 +49,60 @@ std::size_t NearestFace::row_of(std::int32_t f) const {
                                     patch_.after.begin());
 }
 
-void NearestFace::look_at(std::size_t row, const Vec3& p, Found& best) const {
-    if (balls_.empty()) {
+NearestFace::Found NearestFace::flat(const Vec3& p, std::size_t likely, double good_enough) const {
+    Found best;
+    const std::size_t n = patch_.triangles.size();
+    for (std::size_t i = 0, row = likely < n ? likely : 0; i < n && best.squared > good_enough; ++i) {
         const auto& t = patch_.triangles[row];
         const Vec3 q = closest_point_on_triangle(p, t[0], t[1], t[2]);
         const double squared = squared_norm(p - q);
         if (squared < best.squared) best = {row, q, squared, {}};
-        return;
-    }
-    const double apart = squared_norm(p - balls_[row].centre),
-                 reach = std::sqrt(best.squared) + balls_[row].radius;
-    if (apart >= reach * reach) return;
-    const FootPoint foot = foot_point(p, patch_.surface(row));
-    if (foot.squared < best.squared) best = {row, foot.point, foot.squared, foot.weights};
-}
-
-NearestFace::Found NearestFace::operator()(const Vec3& p, std::size_t likely, double good_enough) const {
-    Found best;
-    const std::size_t n = patch_.triangles.size();
-    for (std::size_t i = 0, row = likely < n ? likely : 0; i < n && best.squared > good_enough; ++i) {
-        look_at(row, p, best);
         if (++row == n) row = 0;
     }
     return best;
+}
+
+// First the face that the point is above, by the weights of its corners: most often it is the one.
+NearestFace::Found NearestFace::curved(const Vec3& p, std::size_t likely, double good_enough) const {
+    const std::size_t n = rows_.size();
+    std::size_t first = 0;
+    Vec3 start;
+    double most_inside = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0, row = likely < n ? likely : 0; i < n && most_inside < 0; ++i) {
+        const Row& r = rows_[row];
+        const double v = dot(p, r.first) - r.first_offset, w = dot(p, r.second) - r.second_offset;
+        const double inside = std::min({1 - v - w, v, w});
+        if (inside > most_inside) {
+            first = row;
+            start = {1 - v - w, v, w};
+            most_inside = inside;
+        }
+        if (++row == n) row = 0;
+    }
+    Found best;
+    const auto look_at = [&](std::size_t row, const Vec3& from) {
+        const FootPoint foot = foot_point(p, patch_.surface(row), from, good_enough);
+        if (foot.squared < best.squared) best = {row, foot.point, foot.squared, foot.weights};
+    };
+    look_at(first, most_inside >= 0 ? start : closest_weights(p, patch_.triangles[first]));
+    if (best.squared <= good_enough) return best;
+    if (best.squared <= near_squared_ && least(best.weights) > kInside) return best;
+    for (std::size_t row = 0; row < rows_.size() && best.squared > good_enough; ++row) {
+        if (row == first) continue;
+        const double apart = squared_norm(p - rows_[row].centre),
+                     reach = std::sqrt(best.squared) + rows_[row].radius;
+        if (apart >= reach * reach) continue;
+        const auto& t = patch_.triangles[row];
+        const Vec3 from = closest_weights(p, t);
+        const double close = std::sqrt(best.squared) + rows_[row].bend;
+        if (squared_norm(p - (t[0] * from.x + t[1] * from.y + t[2] * from.z)) >= close * close) continue;
+        look_at(row, from);
+    }
+    return best;
+}
+
+NearestFace::Found NearestFace::operator()(const Vec3& p, std::size_t likely, double good_enough) const {
+    return rows_.empty() ? flat(p, likely, good_enough) : curved(p, likely, good_enough);
 }
 
 }  // namespace pfgeom

@@ -18,7 +18,8 @@ class NearestFace {
         Vec3 weights;  ///< of the corners; of curved patches only
     };
 
-    explicit NearestFace(const Patch& patch);
+    /// `near`: a foot point inside a curved face that is no farther is taken without a look at the others.
+    NearestFace(const Patch& patch, double near);
 
     /// `good_enough`: the search ends with the first face that is as close; it begins with the likeliest.
     Found operator()(const Vec3& p, std::size_t likely, double good_enough) const;
@@ -26,14 +27,20 @@ class NearestFace {
     std::size_t row_of(std::int32_t f) const;
 
   private:
-    struct Ball {
+    // A curved face: a ball around it, and what gives the weights of its corners at the foot on its plane.
+    struct Row {
         Vec3 centre;
         double radius = 0;
+        Vec3 first, second;
+        double first_offset = 0, second_offset = 0;
+        double bend = 0;  // no point is farther from the flat face
     };
-    void look_at(std::size_t row, const Vec3& p, Found& best) const;
+    Found flat(const Vec3& p, std::size_t likely, double good_enough) const;
+    Found curved(const Vec3& p, std::size_t likely, double good_enough) const;
 
     const Patch& patch_;
-    std::vector<Ball> balls_;  // around curved faces
+    double near_squared_;
+    std::vector<Row> rows_;
 };
 
 }  // namespace pfgeom

@@ -26,18 +26,18 @@ Spokes::Spokes(const Patch& patch) {
             const auto i = static_cast<std::size_t>(known - list_.begin());
             of_row_.back()[k] = i;
             if (known == list_.end()) {
-                list_.push_back({end, t[k + 1] - t[0], normal, {}, false, 1});
+                list_.push_back({end, t[k + 1] - t[0], normal, {}, 1, 1, false, nullptr});
                 first_normal.push_back(normal);
                 continue;
             }
             const double cosine = dot(first_normal[i], normal);
             known->normal += cosine < 0 ? -normal : normal;
-            known->bent = known->bent || cosine < kCreaseCosine;
+            known->fold = std::min(known->fold, cosine);
             ++known->faces;
         }
     }
     for (Spoke& s : list_) {
-        s.bent = s.bent || s.faces != 2;
+        s.bent = s.fold < kCreaseCosine || s.faces != 2;
         const Vec3 along = normalized(s.along);
         s.normal = normalized(s.normal - along * dot(along, s.normal));
         s.sideways = cross(s.normal, along);

@@ -9,12 +9,16 @@
 
 namespace pfgeom {
 
+class Bvh;
+
 struct Spoke {
     std::int32_t end = -1;
     Vec3 along;             ///< from the moving vertex
     Vec3 normal, sideways;  ///< unit vectors across it, or zero: the mean of the faces', and within them
-    bool bent = false;      ///< a crease or a border: it may bulge sideways too
+    double fold = 1;        ///< cosine between the normals of its two faces
     int faces = 0;
+    bool bent = false;          ///< it may bulge sideways too
+    const Bvh* line = nullptr;  ///< the border or the crease of the original that it follows
 };
 
 class Spokes {
@@ -22,6 +26,7 @@ class Spokes {
     explicit Spokes(const Patch& patch);
 
     const std::vector<Spoke>& list() const { return list_; }
+    std::vector<Spoke>& list() { return list_; }
     /// Of a row of the patch: the spokes to its corners 1 and 2.
     const std::array<std::size_t, 2>& of_row(std::size_t row) const { return of_row_[row]; }
     /// Sets a spoke's bulge in all rows, no longer than it may be.

@@ -63,6 +63,19 @@ TEST(Patches, DividedMeshIsClosedWhateverItsEdgesAre) {
     }
 }
 
+TEST(Patches, ChordHoldsBesideStraightEdgesToo) {
+    Object object = sphere_part(0);
+    auto& part = std::get<MeshPart>(object.shape);
+    for (std::size_t i = 0; i < part.bulges.size(); i += 3) part.bulges[i] = {};
+    for (const double chord : {4e-3, 1e-3}) {
+        const TriangleMesh fine = divide_patches(object, {.chord = 1e-5});
+        const Bvh bvh(divide_patches(object, {.chord = chord}));
+        double worst = 0;
+        for (const Vec3& v : fine.vertices) worst = std::max(worst, bvh.closest(v).squared_distance);
+        EXPECT_LT(std::sqrt(worst), 2 * chord);
+    }
+}
+
 TEST(Patches, ChordSaysHowFarEdgesAreFromTheirCurve) {
     const Object object = sphere_part(0);
     const TriangleMesh fine = divide_patches(object, {.chord = 1e-6}),

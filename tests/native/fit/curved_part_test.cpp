@@ -52,6 +52,24 @@ TEST(CurvedPart, RoundShapesTakeLessThanHalfTheFaces) {
     }
 }
 
+// A flat ring: its borders, one of them concave from the inside, are all that there is.
+TEST(CurvedPart, RoundBordersTakeFewFaces) {
+    constexpr int kAround = 96;
+    TriangleMesh ring;
+    for (const double radius : {1.0, 0.8, 0.6}) {
+        for (int i = 0; i < kAround; ++i) {
+            const auto [x, y] = shapes::on_circle(static_cast<double>(i) / kAround);
+            ring.vertices.push_back({radius * x, radius * y, 0});
+        }
+    }
+    ring.faces = shapes::grid_faces(3, kAround, false, true);
+    const double tolerance = 2e-3 * diagonal(ring);
+    const Object object = curved(ring, tolerance);
+    EXPECT_LE(reached(ring, object, tolerance), 1);
+    EXPECT_LE(faces(object), 32U);
+    EXPECT_LT(2 * faces(object), faces(fit_mesh_part(ring, {tolerance, Metric::max, 1})));
+}
+
 TEST(CurvedPart, RmsTakesFewerFacesThanTheSameMaximum) {
     const TriangleMesh mesh = shapes::bumpy_sphere(2);
     const double tolerance = 2e-2;

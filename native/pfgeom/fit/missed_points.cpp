@@ -1,0 +1,108 @@
+#include "pfgeom/fit/missed_points.h"
+
+#include "pfgeom/fit/foot_point.h"
+#include "pfgeom/mesh/bvh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfgeom {
+namespace {
+
+// Each curved face is looked for as so many flat ones along a side: a chord is off by a sixteenth of a bulge,
+// which the foot point on the curved one makes good.
+constexpr int kParts = 4;
+// How fast distances are taken to change (1 would be a proof), and the smallest part of a face that is looked
+// at, as shares of the limit and of the face's longest edge. The proof on the file's own bytes comes later.
+constexpr double kSlope = 0.7, kFinest = 0.1, kFinestPart = 1.0 / 64;
+
+using Corners = std::array<Vec3, 3>;
+
+class Search {
+  public:
+    Search(const CollapseMesh& mesh, double limit, const Task& task)
+        : mesh_(mesh), limit_(limit), left_(mesh.faces_left()), bvh_(divided(), task) {}
+
+    void look_along(const Corners& face, std::int32_t origin, std::vector<MissedPoint>& missed) {
+        const double longest =
+            std::sqrt(std::max({squared_norm(face[1] - face[0]), squared_norm(face[2] - face[1]),
+                                squared_norm(face[0] - face[2])}));
+        const double finest = std::max(kFinest * limit_, kFinestPart * longest);
+        open_.assign({face});
+        while (!open_.empty()) {
+            const auto [a, b, c] = open_.back();
+            open_.pop_back();
+            const Vec3 middle = (a + b + c) / 3;
+            const MissedPoint found = closest(middle, origin);
+            const double distance = std::sqrt(found.squared);
+            if (distance > limit_) missed.push_back(found);
+            const double reach = std::sqrt(
+                std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
+            if (reach < finest || distance + kSlope * reach <= limit_) continue;
+            const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
+            open_.insert(open_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+    }
+
+  private:
+    CurvedTriangle surface(std::size_t row) const {
+        const std::int32_t f = left_[row];
+        return {mesh_.corners(f), {mesh_.bulge(f, 0), mesh_.bulge(f, 1), mesh_.bulge(f, 2)}};
+    }
+
+    // kParts² faces of each curved one, in its place.
+    TriangleMesh divided() const {
+        TriangleMesh result;
+        for (std::size_t row = 0; row < left_.size(); ++row) {
+            const CurvedTriangle curved = surface(row);
+            const auto add = [&](int i, int j) {
+                const double v = static_cast<double>(i) / kParts, w = static_cast<double>(j) / kParts;
+                result.vertices.push_back(curved.at({1 - v - w, v, w}));
+                return static_cast<std::int32_t>(result.vertices.size()) - 1;
+            };
+            for (int i = 0; i < kParts; ++i) {
+                for (int j = 0; i + j < kParts; ++j) {
+                    result.faces.push_back({add(i, j), add(i + 1, j), add(i, j + 1)});
+                    if (i + j + 1 < kParts)
+                        result.faces.push_back({add(i + 1, j), add(i + 1, j + 1), add(i, j + 1)});
+                }
+            }
+        }
+        return result;
+    }
+
+    MissedPoint closest(const Vec3& p, std::int32_t origin) {
+        const ClosestPoint found = bvh_.closest(p, std::numeric_limits<double>::infinity(), hint_);
+        hint_ = found.face;
+        const std::size_t row = static_cast<std::size_t>(found.face / (kParts * kParts));
+        MissedPoint result{p, origin, left_[row], found.squared_distance};
+        if (result.squared > limit_ * limit_)
+            result.squared = std::min(result.squared, foot_point(p, surface(row)).squared);
+        return result;
+    }
+
+    const CollapseMesh& mesh_;
+    double limit_;
+    std::vector<std::int32_t> left_;
+    Bvh bvh_;
+    std::int32_t hint_ = -1;
+    std::vector<Corners> open_;
+};
+
+}  // namespace
+
+std::vector<MissedPoint> missed_points(const TriangleMesh& original, const CollapseMesh& mesh, double limit,
+                                       const Task& task) {
+    Search search(mesh, limit, task);
+    std::vector<MissedPoint> missed;
+    for (std::size_t f = 0; f < original.faces.size(); ++f) {
+        task.check();
+        Corners corners;
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k] = original.vertices[static_cast<std::size_t>(original.faces[f][k])];
+        search.look_along(corners, static_cast<std::int32_t>(f), missed);
+    }
+    return missed;
+}
+
+}  // namespace pfgeom
