@@ -6,6 +6,7 @@
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/bvh.h"
+#include "pfgeom/mesh/prepare.h"
 #include "pfgeom/report/deviation.h"
 
 #include <optional>
@@ -57,10 +58,9 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task);
 /// Simplified and coded mesh: any shape; always holds.
 Outcome try_mesh(const Goal& goal, const Task& task);
 
-/// The cheapest candidate that holds, for a closed, oriented island. Nothing: it is for a mesh part.
-std::optional<Outcome> fit_island(const Goal& goal, const Task& task);
-/// The same for an oriented manifold with a border.
-std::optional<Outcome> fit_open_island(const Goal& goal, const Task& task);
+/// The cheapest candidate that holds, for an oriented island that is closed, or a manifold with a border.
+/// Nothing: it is for a mesh part.
+std::optional<Outcome> fit_island(const Island& island, const Goal& goal, const Task& task);
 
 /// A file of this one object.
 Model model_of(const Goal& goal, const Outcome& outcome);

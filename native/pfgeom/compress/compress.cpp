@@ -124,11 +124,10 @@ class Compressor {
 
     // Nothing: the island goes into the common mesh part.
     std::optional<Outcome> fit_alone(const Island& island, const Task& task) const {
-        if (!island.oriented || !(island.closed || island.manifold)) return {};
+        if (!island.oriented) return {};
         const TriangleMesh mesh = extract_island(prepared_, island);
         const Bvh bvh(mesh);
-        if (!island.closed) return fit_open_island(goal_of(mesh, bvh, false), task);
-        return fit_island(goal_of(mesh, bvh, island.signed_volume < 0), task);
+        return fit_island(island, goal_of(mesh, bvh, island.closed && island.signed_volume < 0), task);
     }
 
     const std::optional<Outcome>& outcome_of(std::size_t i) const { return chosen_[first_of_[i]]; }

@@ -67,8 +67,8 @@ class CopiesFit {
     const Island& first() const { return goal_.prepared.islands[group_.front().island]; }
 
     Goal goal_for(const TriangleMesh& mesh, const Bvh& bvh, double tolerance) const {
-        return {mesh,        bvh, tolerance, goal_.metric, goal_.prepared.diagonal, first().signed_volume < 0,
-                goal_.effort};
+        const bool inward = first().closed && first().signed_volume < 0;
+        return {mesh, bvh, tolerance, goal_.metric, goal_.prepared.diagonal, inward, goal_.effort};
     }
 
     // Within what the share leaves.
@@ -77,8 +77,7 @@ class CopiesFit {
         for (const Similarity& s : places_) largest = std::max(largest, s.scale);
         const Bvh bvh(pattern_);
         const Goal goal = goal_for(pattern_, bvh, (1 - share) * goal_.tolerance / largest);
-        std::optional<Outcome> outcome;
-        if (first().closed && first().oriented) outcome = fit_island(goal, task_);
+        std::optional<Outcome> outcome = fit_island(first(), goal, task_);
         if (!outcome) outcome = try_mesh(goal, task_);
         if (!outcome->holds) return false;
         of_pattern_ = *std::move(outcome);

@@ -47,17 +47,19 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     return best;
 }
 
-}  // namespace
-
-std::optional<Outcome> fit_island(const Goal& goal, const Task& task) {
+std::optional<Outcome> fit_closed(const Goal& goal, const Task& task) {
     if (goal.mesh.faces.size() < 8) return {};
     if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
     if (goal.mesh.faces.size() < kLeastFaces) return {};
     return goal.metric == Metric::max ? fit_by_max(goal, task) : fit_by_rms(goal, task);
 }
 
-std::optional<Outcome> fit_open_island(const Goal& goal, const Task& task) {
-    if (goal.mesh.faces.size() < kLeastFacesOfSheet) return {};
+}  // namespace
+
+std::optional<Outcome> fit_island(const Island& island, const Goal& goal, const Task& task) {
+    if (!island.oriented) return {};
+    if (island.closed) return fit_closed(goal, task);
+    if (!island.manifold || goal.mesh.faces.size() < kLeastFacesOfSheet) return {};
     return try_sheet(goal, task);
 }
 
