@@ -50,6 +50,18 @@ bool is_hollow(const QuadricShape& shape, const Quadric& quadric, const QuadricP
     return (outwards > 0) == (2 * patch.area_above > patch.area);
 }
 
+// Where the quadric is: a sill's ellipsoid, ten times as long as wide, has few points on a grid of the whole
+// cube, and a plane through them.
+std::vector<Vec3> points_in_cube(const Quadric& quadric) {
+    constexpr int kFirst = 48;
+    std::vector<Vec3> points = points_on(quadric, {{-1, -1, -1}, {1, 1, 1}}, kFirst);
+    if (points.empty()) return points;
+    Box box;
+    for (const Vec3& p : points) box.grow(p);
+    const Vec3 spacing{2.0 / kFirst, 2.0 / kFirst, 2.0 / kFirst};
+    return points_on(quadric, {max(box.lo - spacing, {-1, -1, -1}), min(box.hi + spacing, {1, 1, 1})});
+}
+
 class FunctionLister {
   public:
     FunctionLister(const Model& model, const Task& task)
@@ -111,7 +123,7 @@ class FunctionLister {
         auto perturbations = static_cast<std::int64_t>(function.perturbations.size());
         for (const Level& level : function.levels)
             perturbations += std::ranges::count_if(level.z, [](std::int32_t z) { return z != 0; });
-        const std::vector<Vec3> points = points_on(function.base, {{-1, -1, -1}, {1, 1, 1}});
+        const std::vector<Vec3> points = points_in_cube(function.base);
         const double tolerance = model_.promise.tolerance / place.half();
         return {.object = object_,
                 .copies = place.copies,

@@ -39,6 +39,18 @@ Model with_tolerance(double tolerance) {
     return model;
 }
 
+TEST(FunctionList, AnEllipsoidMuchLongerThanWideIsStillOne) {
+    Model model = with_tolerance(1e-2);
+    model.functions.resize(1);
+    // Half axes 0.95, 0.09 and 0.08 around (0, 0.04, -0.03).
+    const double a = 1 / (0.95 * 0.95), b = 1 / (0.09 * 0.09), c = 1 / (0.08 * 0.08);
+    model.functions[0].base = {{-a, -b, -c, 0, 0, 0, 0, 0.08 * b, -0.06 * c, 1 - 0.0016 * b - 0.0009 * c}};
+    model.objects = {solid_of(0)};
+    const std::vector<ListedFunction> list = list_functions(model);
+    ASSERT_EQ(list.size(), 1U);
+    EXPECT_EQ(list[0].shape.kind, Kind::ellipsoid);
+}
+
 TEST(FunctionList, AHoleInTheMeshsUnits) {
     Model model = with_tolerance(1e-3);
     model.objects = {plate_with_hole()};
