@@ -42,6 +42,13 @@ py::dict describe_one_sided(const OneSided& side) {
                     "worst"_a = py::make_tuple(side.worst.x, side.worst.y, side.worst.z));
 }
 
+py::dict describe_figures(const DepthFigures& f) {
+    return py::dict("both"_a = f.both, "only_a"_a = f.only_a, "only_b"_a = f.only_b, "mean"_a = f.mean(),
+                    "max"_a = f.max, "away"_a = f.away, "away_mean"_a = f.away_mean(),
+                    "away_max"_a = f.away_max, "differing"_a = f.differing,
+                    "differing_away"_a = f.differing_away, "silhouette_away"_a = f.silhouette_away);
+}
+
 py::dict describe_defects(const MeshDefects& d) {
     return py::dict("unused_vertices"_a = d.unused_vertices, "duplicate_vertices"_a = d.duplicate_vertices,
                     "degenerate_faces"_a = d.degenerate_faces, "duplicate_faces"_a = d.duplicate_faces,
@@ -89,6 +96,16 @@ py::dict describe_deviation(const Deviation& d) {
     return py::dict("max"_a = d.max(), "max_bound"_a = d.max_bound(), "rms"_a = d.rms(), "mean"_a = d.mean(),
                     "p99"_a = d.p99(), "normal_deg_mean"_a = d.normal_mean_deg(), "certified"_a = d.certified,
                     "a_to_b"_a = describe_one_sided(d.a_to_b), "b_to_a"_a = describe_one_sided(d.b_to_a));
+}
+
+py::dict describe_depths(const DepthComparison& depths) {
+    py::list views;
+    for (const DepthView& view : depths.views) {
+        const Vec3& d = view.direction;
+        views.append(py::dict("direction"_a = py::make_tuple(d.x, d.y, d.z), "pixel"_a = view.pixel,
+                              "figures"_a = describe_figures(view.figures)));
+    }
+    return py::dict("total"_a = describe_figures(depths.total), "views"_a = views);
 }
 
 py::dict describe_report(const CompressReport& report) {

@@ -41,19 +41,31 @@ RayScene::RayScene(const Model& model, const Task& task) {
     for (std::size_t i = 0; i < model.objects.size(); ++i) {
         const Object& object = model.objects[i];
         task.report(static_cast<double>(i) / static_cast<double>(model.objects.size()), "preparing");
-        targets_.push_back(make_target(model, object, task));
-        Box box;
-        for (const Box& part : targets_.back()->cover()) box.grow(part);
-        if (box.empty()) continue;
         const bool is_cavity = object.cavity_of >= 0 && !std::holds_alternative<MeshPart>(object.shape);
-        pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), false, is_cavity, {}});
-        boxes.push_back(with_margin(box));
-        for (const Similarity& place : object.instances) {
-            pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), true, is_cavity, place});
-            boxes.push_back(with_margin(placed(box, place)));
-        }
+        add(make_target(model, object, task), object.instances, is_cavity, boxes);
     }
     boxes_ = BoxTree(boxes);
+}
+
+RayScene::RayScene(const TriangleMesh& mesh, const Task& task) {
+    std::vector<Box> boxes;
+    add(std::make_unique<RayMesh>(mesh, task), {}, false, boxes);
+    boxes_ = BoxTree(boxes);
+}
+
+void RayScene::add(std::unique_ptr<RayTarget> target, std::span<const Similarity> copies, bool is_cavity,
+                   std::vector<Box>& boxes) {
+    const auto object = static_cast<std::int32_t>(targets_.size());
+    targets_.push_back(std::move(target));
+    Box box;
+    for (const Box& part : targets_.back()->cover()) box.grow(part);
+    if (box.empty()) return;
+    pieces_.push_back({targets_.back().get(), object, false, is_cavity, {}});
+    boxes.push_back(with_margin(box));
+    for (const Similarity& place : copies) {
+        pieces_.push_back({targets_.back().get(), object, true, is_cavity, place});
+        boxes.push_back(with_margin(placed(box, place)));
+    }
 }
 
 // Of equal ones the one that comes first: pieces are met in the ray's order.
