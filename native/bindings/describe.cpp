@@ -36,10 +36,18 @@ py::dict describe_shape(const SetTree& tree) {
                     "families"_a = families);
 }
 
+void add_normals(py::dict& figures, const NormalAngles& all, const NormalAngles& smooth) {
+    figures["normal_deg_mean"] = all.mean, figures["normal_deg_p99"] = all.p99;
+    figures["normal_deg_max"] = all.max, figures["smooth_normal_deg_mean"] = smooth.mean;
+    figures["smooth_normal_deg_p99"] = smooth.p99, figures["smooth_normal_deg_max"] = smooth.max;
+}
+
 py::dict describe_one_sided(const OneSided& side) {
-    return py::dict("max"_a = side.max, "max_bound"_a = side.max_bound, "rms"_a = side.rms,
-                    "mean"_a = side.mean, "p99"_a = side.p99, "normal_deg_mean"_a = side.normal_mean_deg,
-                    "worst"_a = py::make_tuple(side.worst.x, side.worst.y, side.worst.z));
+    py::dict figures("max"_a = side.max, "max_bound"_a = side.max_bound, "rms"_a = side.rms,
+                     "mean"_a = side.mean, "p99"_a = side.p99,
+                     "worst"_a = py::make_tuple(side.worst.x, side.worst.y, side.worst.z));
+    add_normals(figures, side.normals, side.smooth_normals);
+    return figures;
 }
 
 py::dict describe_figures(const DepthFigures& f) {
@@ -93,9 +101,11 @@ py::dict describe_sizes(const Model& model) {
 }
 
 py::dict describe_deviation(const Deviation& d) {
-    return py::dict("max"_a = d.max(), "max_bound"_a = d.max_bound(), "rms"_a = d.rms(), "mean"_a = d.mean(),
-                    "p99"_a = d.p99(), "normal_deg_mean"_a = d.normal_mean_deg(), "certified"_a = d.certified,
-                    "a_to_b"_a = describe_one_sided(d.a_to_b), "b_to_a"_a = describe_one_sided(d.b_to_a));
+    py::dict figures("max"_a = d.max(), "max_bound"_a = d.max_bound(), "rms"_a = d.rms(), "mean"_a = d.mean(),
+                     "p99"_a = d.p99(), "certified"_a = d.certified,
+                     "a_to_b"_a = describe_one_sided(d.a_to_b), "b_to_a"_a = describe_one_sided(d.b_to_a));
+    add_normals(figures, d.normals(), d.smooth_normals());
+    return figures;
 }
 
 py::dict describe_depths(const DepthComparison& depths) {

@@ -26,8 +26,11 @@ class OneSided:
         Proved upper bound of the true maximum.
     rms, mean, p99 : float
         Root mean square, mean and 99th percentile over the surface's area.
-    normal_deg_mean : float
-        Mean angle between the normals, in degrees.
+    normal_deg_mean, normal_deg_p99, normal_deg_max : float
+        Angle between the normals of the faces, in degrees.
+    smooth_normal_deg_mean, smooth_normal_deg_p99, smooth_normal_deg_max : float
+        The same away from creases: of points that lie, with the closest ones to them, farther than 5e-3 of the first
+        mesh's diagonal from its edges that turn by more than 30 degrees. 0 where there are none.
     worst : (3,) floats
         Where ``max`` was found.
     """
@@ -38,6 +41,11 @@ class OneSided:
     mean: float
     p99: float
     normal_deg_mean: float
+    normal_deg_p99: float
+    normal_deg_max: float
+    smooth_normal_deg_mean: float
+    smooth_normal_deg_p99: float
+    smooth_normal_deg_max: float
     worst: tuple[float, float, float]
 
 
@@ -47,7 +55,7 @@ class Deviation:
 
     Attributes
     ----------
-    max, max_bound, rms, mean, p99, normal_deg_mean : float
+    max, max_bound, rms, mean, p99, normal_deg_mean, smooth_normal_deg_mean, … : float
         As in `OneSided`.
     certified : bool
         Whether ``max`` and ``max_bound`` meet (within half a percent): the maximum is then proved.
@@ -68,6 +76,11 @@ class Deviation:
     mean: float
     p99: float
     normal_deg_mean: float
+    normal_deg_p99: float
+    normal_deg_max: float
+    smooth_normal_deg_mean: float
+    smooth_normal_deg_p99: float
+    smooth_normal_deg_max: float
     certified: bool
     diagonal: float
     a_to_b: OneSided

@@ -86,7 +86,8 @@ def compared(f: dict[str, Any]) -> list[Row]:
     return [
         (label, figure, f"{share}, {proof}"),
         *lengths[1:],
-        ("normals", f"{f['normal_deg_mean']:.3f}", "degrees, mean"),
+        _angles(f, "normals", "normal_deg", ""),
+        _angles(f, "smooth normals", "smooth_normal_deg", "; away from creases"),
         ("diagonal", f"{f['diagonal']:.6g}", "of A's bounding box"),
         *((side.upper(), what, f[side]) for side, what in zip("ab", f["surfaces"], strict=True)),
         *(_depths(f) if f["depth_buffers"] else []),
@@ -100,6 +101,11 @@ def rendered(f: dict[str, Any]) -> list[Row]:
         ("covered", f"{100 * f['covered']:.1f} %", "of the picture"),
         ("seconds", f"{f['seconds']:.2f}", "without writing the file"),
     ]
+
+
+def _angles(f: dict[str, Any], label: str, name: str, where: str) -> Row:
+    rest = f"p99 {f[f'{name}_p99']:.3f}, max {f[f'{name}_max']:.3f}"
+    return (label, f"{f[f'{name}_mean']:.3f}", f"degrees, mean; {rest}{where}")
 
 
 def _depths(f: dict[str, Any]) -> list[Row]:
