@@ -18,6 +18,7 @@ py::dict compare_arrays(const Points& vertices_a, const Indices& faces_a, const 
     options.samples = samples;
     options.seed = seed;
     options.bound = bound;
+    options.smooth_normals = true;
     Job job(threads, std::move(progress), cancel);
     py::dict result = describe_deviation(
         job.run([=](const Task& task) { return measure_deviation(*a, *b, options, task); }));

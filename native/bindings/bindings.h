@@ -15,6 +15,7 @@ void bind_model(pybind11::module_& m);
 void bind_compress(pybind11::module_& m);
 void bind_render(pybind11::module_& m);
 void bind_report(pybind11::module_& m);
+void bind_depth(pybind11::module_& m);
 void bind_distance(pybind11::module_& m);
 
 }  // namespace pfgeom::bindings

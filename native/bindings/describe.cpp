@@ -36,10 +36,25 @@ py::dict describe_shape(const SetTree& tree) {
                     "families"_a = families);
 }
 
+void add_normals(py::dict& figures, const NormalAngles& all, const NormalAngles& smooth) {
+    figures["normal_deg_mean"] = all.mean, figures["normal_deg_p99"] = all.p99;
+    figures["normal_deg_max"] = all.max, figures["smooth_normal_deg_mean"] = smooth.mean;
+    figures["smooth_normal_deg_p99"] = smooth.p99, figures["smooth_normal_deg_max"] = smooth.max;
+}
+
 py::dict describe_one_sided(const OneSided& side) {
-    return py::dict("max"_a = side.max, "max_bound"_a = side.max_bound, "rms"_a = side.rms,
-                    "mean"_a = side.mean, "p99"_a = side.p99, "normal_deg_mean"_a = side.normal_mean_deg,
-                    "worst"_a = py::make_tuple(side.worst.x, side.worst.y, side.worst.z));
+    py::dict figures("max"_a = side.max, "max_bound"_a = side.max_bound, "rms"_a = side.rms,
+                     "mean"_a = side.mean, "p99"_a = side.p99,
+                     "worst"_a = py::make_tuple(side.worst.x, side.worst.y, side.worst.z));
+    add_normals(figures, side.normals, side.smooth_normals);
+    return figures;
+}
+
+py::dict describe_figures(const DepthFigures& f) {
+    return py::dict("both"_a = f.both, "only_a"_a = f.only_a, "only_b"_a = f.only_b, "mean"_a = f.mean(),
+                    "max"_a = f.max, "away"_a = f.away, "away_mean"_a = f.away_mean(),
+                    "away_max"_a = f.away_max, "differing"_a = f.differing,
+                    "differing_away"_a = f.differing_away, "silhouette_away"_a = f.silhouette_away);
 }
 
 py::dict describe_defects(const MeshDefects& d) {
@@ -86,9 +101,21 @@ py::dict describe_sizes(const Model& model) {
 }
 
 py::dict describe_deviation(const Deviation& d) {
-    return py::dict("max"_a = d.max(), "max_bound"_a = d.max_bound(), "rms"_a = d.rms(), "mean"_a = d.mean(),
-                    "p99"_a = d.p99(), "normal_deg_mean"_a = d.normal_mean_deg(), "certified"_a = d.certified,
-                    "a_to_b"_a = describe_one_sided(d.a_to_b), "b_to_a"_a = describe_one_sided(d.b_to_a));
+    py::dict figures("max"_a = d.max(), "max_bound"_a = d.max_bound(), "rms"_a = d.rms(), "mean"_a = d.mean(),
+                     "p99"_a = d.p99(), "certified"_a = d.certified,
+                     "a_to_b"_a = describe_one_sided(d.a_to_b), "b_to_a"_a = describe_one_sided(d.b_to_a));
+    add_normals(figures, d.normals(), d.smooth_normals());
+    return figures;
+}
+
+py::dict describe_depths(const DepthComparison& depths) {
+    py::list views;
+    for (const DepthView& view : depths.views) {
+        const Vec3& d = view.direction;
+        views.append(py::dict("direction"_a = py::make_tuple(d.x, d.y, d.z), "pixel"_a = view.pixel,
+                              "figures"_a = describe_figures(view.figures)));
+    }
+    return py::dict("total"_a = describe_figures(depths.total), "views"_a = views);
 }
 
 py::dict describe_report(const CompressReport& report) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pfgeom/compress/compress.h"
+#include "pfgeom/render/depth_buffers.h"
 #include "pfgeom/report/function_list.h"
 
 #include <pybind11/pybind11.h>
@@ -17,6 +18,7 @@ pybind11::list describe_objects(const Model& model);
 pybind11::dict describe_promise(const Model& model);
 pybind11::dict describe_sizes(const Model& model);
 pybind11::dict describe_deviation(const Deviation& deviation);
+pybind11::dict describe_depths(const DepthComparison& depths);
 pybind11::dict describe_report(const CompressReport& report);
 
 }  // namespace pfgeom::bindings

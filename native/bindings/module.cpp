@@ -12,5 +12,6 @@ PYBIND11_MODULE(_core, m) {
     bind_compress(m);
     bind_render(m);
     bind_report(m);
+    bind_depth(m);
     bind_distance(m);
 }

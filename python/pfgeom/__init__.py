@@ -13,6 +13,7 @@ the logger is ``logging.getLogger("pfgeom")``.
 import logging
 
 from ._core import __version__
+from .depths import DepthBuffers, DepthFigures, DepthView
 from .deviation import Deviation, OneSided, compare
 from .distances import ClosestPoints, closest_points
 from .encoder import compress
@@ -27,6 +28,9 @@ __all__ = [
     "CancelToken",
     "Cancelled",
     "ClosestPoints",
+    "DepthBuffers",
+    "DepthFigures",
+    "DepthView",
     "Deviation",
     "FormatError",
     "FunctionCount",

@@ -67,6 +67,15 @@ def compare(
     progress: _Progress,
     cancel: CancelToken | None,
 ) -> dict[str, Any]: ...
+def compare_depths(
+    a: Model | tuple[_Float64, _Int32],
+    b: Model | tuple[_Float64, _Int32],
+    side: int,
+    tolerance: float,
+    threads: int,
+    progress: _Progress,
+    cancel: CancelToken | None,
+) -> dict[str, Any]: ...
 def compress(
     vertices: _Float64,
     faces: _Int32,

@@ -73,6 +73,16 @@ def _add_compare(commands: Any) -> None:
     command.add_argument("b", metavar="B", help="mesh or .pfg file")
     command.add_argument("--samples", type=_count, default=200_000, metavar="N", help="a side (default 200000)")
     command.add_argument("--no-bound", dest="bound", action="store_false", help="leave out the proof of the maximum")
+    command.add_argument(
+        "--depth-buffers", type=_count, nargs="?", const=1024, metavar="R",
+        help="also draw both from 14 sides, R x R pixels (default 1024), and compare the depths; a .pfg is drawn from "
+        "its functions, while the other figures are about its default mesh",
+    )  # fmt: skip
+    command.add_argument(
+        "--tolerance", type=_positive, metavar="T",
+        help="three of which count as a difference of depths, as a share of A's diagonal (default: that of the .pfg, "
+        "or 1e-3)",
+    )  # fmt: skip
     _add_common(command)
 
 

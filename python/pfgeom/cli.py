@@ -103,9 +103,17 @@ def run_info(args: argparse.Namespace) -> None:
 
 
 def run_compare(args: argparse.Namespace) -> None:
-    a, b = _read_shape(args.a), _read_shape(args.b)
     with progress_bar(quiet=args.quiet) as progress:
-        deviation = compare(a, b, samples=args.samples, bound=args.bound, threads=args.threads, progress=progress)
+        deviation = compare(
+            args.a,
+            args.b,
+            samples=args.samples,
+            bound=args.bound,
+            depth_buffers=args.depth_buffers,
+            tolerance=args.tolerance,
+            threads=args.threads,
+            progress=progress,
+        )
     _print(args, compare_figures(args, deviation), tables.compared)
 
 
@@ -203,10 +211,6 @@ def _print(args: argparse.Namespace, figures: dict[str, Any], table: tables.Tabl
 
 
 # --- files -----------------------------------------------------------------------------------------------------
-
-
-def _read_shape(path: str) -> Mesh | Model:
-    return load(path) if path.lower().endswith(".pfg") else read_mesh(path)
 
 
 def _check_target(path: str) -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+import math
+import os
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from . import _core
-from .meshes import Mesh, as_mesh
-from .model import Model
+from .depths import DepthBuffers, check_side, compare_depths
+from .meshes import Mesh, as_mesh, read_mesh
+from .model import Model, load
 from .tasks import CancelToken, Progress, check_task
 
 
@@ -23,8 +26,11 @@ class OneSided:
         Proved upper bound of the true maximum.
     rms, mean, p99 : float
         Root mean square, mean and 99th percentile over the surface's area.
-    normal_deg_mean : float
-        Mean angle between the normals, in degrees.
+    normal_deg_mean, normal_deg_p99, normal_deg_max : float
+        Angle between the normals of the faces, in degrees.
+    smooth_normal_deg_mean, smooth_normal_deg_p99, smooth_normal_deg_max : float
+        The same away from creases: of points that lie, with the closest ones to them, farther than 5e-3 of the first
+        mesh's diagonal from its edges that turn by more than 30 degrees. 0 where there are none.
     worst : (3,) floats
         Where ``max`` was found.
     """
@@ -35,6 +41,11 @@ class OneSided:
     mean: float
     p99: float
     normal_deg_mean: float
+    normal_deg_p99: float
+    normal_deg_max: float
+    smooth_normal_deg_mean: float
+    smooth_normal_deg_p99: float
+    smooth_normal_deg_max: float
     worst: tuple[float, float, float]
 
 
@@ -44,7 +55,7 @@ class Deviation:
 
     Attributes
     ----------
-    max, max_bound, rms, mean, p99, normal_deg_mean : float
+    max, max_bound, rms, mean, p99, normal_deg_mean, smooth_normal_deg_mean, … : float
         As in `OneSided`.
     certified : bool
         Whether ``max`` and ``max_bound`` meet (within half a percent): the maximum is then proved.
@@ -52,6 +63,11 @@ class Deviation:
         Of the bounding box of the first mesh.
     a_to_b, b_to_a : OneSided
         The two directions.
+    depth_buffers : DepthBuffers or None
+        If they were asked for.
+    surfaces : (2,) str
+        What the figures above are about, of each side: ``"mesh"``, or ``"default mesh"`` of a model. Depth buffers
+        are drawn from the functions themselves. Not part of equality.
     """
 
     max: float
@@ -60,10 +76,17 @@ class Deviation:
     mean: float
     p99: float
     normal_deg_mean: float
+    normal_deg_p99: float
+    normal_deg_max: float
+    smooth_normal_deg_mean: float
+    smooth_normal_deg_p99: float
+    smooth_normal_deg_max: float
     certified: bool
     diagonal: float
     a_to_b: OneSided
     b_to_a: OneSided
+    depth_buffers: DepthBuffers | None = None
+    surfaces: tuple[str, str] = field(default=("mesh", "mesh"), compare=False)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values, for JSON."""
@@ -77,6 +100,8 @@ def compare(
     samples: int = 200_000,
     seed: int = 1,
     bound: bool = True,
+    depth_buffers: int | None = None,
+    tolerance: float | None = None,
     threads: int = 0,
     progress: Progress | None = None,
     cancel: CancelToken | None = None,
@@ -86,13 +111,19 @@ def compare(
     Parameters
     ----------
     a, b
-        Models (their default meshes), pairs (vertices, faces), or mesh objects as `pfgeom.compress` takes them.
+        Models; paths of ``.pfg`` or mesh files; pairs (vertices, faces), or mesh objects as `pfgeom.compress` takes
+        them. Of models the default meshes are measured, but for depth buffers, which are drawn from the functions.
     samples
         Stratified random samples a side, for ``rms``, ``mean``, ``p99`` and normals.
     seed
         Of the samples: the same seed gives the same figures.
     bound
         Whether to prove the maximum by branch and bound.
+    depth_buffers
+        Pixels across, such as 1024: both are also drawn from 14 sides, and their depths compared.
+    tolerance
+        For depth buffers, three of which count as a difference: a share of the diagonal of ``a``. Without it that of
+        the model, the second one of two, or 1e-3.
     threads, progress, cancel
         As for `pfgeom.compress`.
 
@@ -104,18 +135,52 @@ def compare(
     ------
     ValueError, TypeError
         A mesh or an option is not valid.
+    OSError, FormatError
+        A file cannot be read.
     Cancelled
         The token was set.
     """
     if samples < 1:
         raise ValueError(f"samples must be positive, not {samples}")
+    if not (tolerance is None or (math.isfinite(tolerance) and tolerance > 0)):
+        raise ValueError(f"tolerance must be positive, not {tolerance}")
+    side = None if depth_buffers is None else check_side(depth_buffers)
     check_task(threads, progress, cancel)
-    mesh_a, mesh_b = _surface(a, threads, cancel), _surface(b, threads, cancel)
-    figures = _core.compare(*mesh_a, *mesh_b, samples, seed, bound, threads, progress, cancel)
-    for side in ("a_to_b", "b_to_a"):
-        figures[side] = OneSided(**figures[side])
-    return Deviation(**figures)
+    shapes = _shape(a), _shape(b)
+    meshes = [_surface(shape, threads, cancel) for shape in shapes]
+    half = 1.0 if side is None else 0.5
+    figures = _core.compare(*meshes[0], *meshes[1], samples, seed, bound, threads, _part(progress, 0, half), cancel)
+    for way in ("a_to_b", "b_to_a"):
+        figures[way] = OneSided(**figures[way])
+    if side is not None:
+        length = _length(tolerance, figures["diagonal"], shapes)
+        figures["depth_buffers"] = compare_depths(*shapes, side, length, threads, _part(progress, half, 1), cancel)
+    first, second = ("default mesh" if isinstance(shape, Model) else "mesh" for shape in shapes)
+    return Deviation(**figures, surfaces=(first, second))
 
 
-def _surface(shape: Any, threads: int, cancel: CancelToken | None) -> Mesh:
-    return shape.to_mesh(threads=threads, cancel=cancel) if isinstance(shape, Model) else as_mesh(shape)
+def _shape(shape: Any) -> Mesh | Model:
+    if isinstance(shape, Model):
+        return shape
+    if not isinstance(shape, (str, bytes, os.PathLike)):
+        return as_mesh(shape)
+    return load(os.fsdecode(shape)) if os.fsdecode(shape).lower().endswith(".pfg") else read_mesh(os.fsdecode(shape))
+
+
+def _surface(shape: Mesh | Model, threads: int, cancel: CancelToken | None) -> Mesh:
+    return shape.to_mesh(threads=threads, cancel=cancel) if isinstance(shape, Model) else shape
+
+
+def _length(tolerance: float | None, diagonal: float, shapes: tuple[Mesh | Model, Mesh | Model]) -> float:
+    """Three of which count as a difference of depths."""
+    promised = [shape.tolerance for shape in shapes if isinstance(shape, Model) and shape.tolerance > 0]
+    if tolerance is None and promised:
+        return promised[-1]
+    return (1e-3 if tolerance is None else tolerance) * diagonal
+
+
+def _part(progress: Progress | None, start: float, end: float) -> Progress | None:
+    """For a part of the work; never falls, since parts follow each other."""
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress(start + (end - start) * fraction, stage)

@@ -88,8 +88,11 @@ def compared(f: dict[str, Any]) -> list[Row]:
     return [
         (label, figure, f"{share}, {proof}"),
         *lengths[1:],
-        ("normals", f"{f['normal_deg_mean']:.3f}", "degrees, mean"),
+        _angles(f, "normals", "normal_deg", ""),
+        _angles(f, "smooth normals", "smooth_normal_deg", "; away from creases"),
         ("diagonal", f"{f['diagonal']:.6g}", "of A's bounding box"),
+        *((side.upper(), what, f[side]) for side, what in zip("ab", f["surfaces"], strict=True)),
+        *(_depths(f) if f["depth_buffers"] else []),
     ]
 
 
@@ -99,6 +102,33 @@ def rendered(f: dict[str, Any]) -> list[Row]:
         ("pixels", f"{f['width']:,} x {f['height']:,}", f["output"]),
         ("covered", f"{100 * f['covered']:.1f} %", "of the picture"),
         ("seconds", f"{f['seconds']:.2f}", "without writing the file"),
+    ]
+
+
+def _angles(f: dict[str, Any], label: str, name: str, where: str) -> Row:
+    rest = f"p99 {f[f'{name}_p99']:.3f}, max {f[f'{name}_max']:.3f}"
+    return (label, f"{f[f'{name}_mean']:.3f}", f"degrees, mean; {rest}{where}")
+
+
+def _depths(f: dict[str, Any]) -> list[Row]:
+    depths, diagonal = f["depth_buffers"], f["diagonal"]
+    total = depths["total"]
+    silhouette = total["only_a"] + total["only_b"]
+    limit = f"by more than {3 * depths['tolerance']:.4e}, three tolerances"
+
+    def length(label: str, name: str, where: str) -> Row:
+        return (label, f"{total[name]:.4e}", f"{total[name] / diagonal:.3e} of the diagonal, {where}")
+
+    return [
+        ("depth buffers", f"{len(depths['views'])} x {depths['side']:,}^2", "models drawn from their functions"),
+        ("pixels", f"{total['both']:,}", "that both cover"),
+        length("depth mean", "mean", "over these"),
+        length("depth max", "max", "over these"),
+        ("differing", f"{total['differing']:,}", f"{limit}; {total['differing_away']:,} away from discontinuities"),
+        ("silhouette", f"{silhouette:,}", f"one alone covers; {total['silhouette_away']:,} away from discontinuities"),
+        ("pixels away", f"{total['away']:,}", "more than 2 pixels from a depth discontinuity of both"),
+        length("mean away", "away_mean", "over these"),
+        length("max away", "away_max", "over these"),
     ]
 
 

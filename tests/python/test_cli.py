@@ -79,6 +79,21 @@ def test_tables(command_line, torus_file):
         assert len(done.stdout.splitlines()) >= 5
 
 
+def test_compare_draws_depth_buffers(command_line, torus_file, torus_pfg):
+    arguments = ("compare", torus_file, torus_pfg, "--samples", 1000, "--no-bound", "--depth-buffers", 96)
+    found = figures(command_line(*arguments, "--json"))
+    assert found["surfaces"] == ["mesh", "default mesh"]
+    assert found["depth_buffers"]["side"] == 96
+    assert len(found["depth_buffers"]["views"]) == 14
+    assert found["depth_buffers"]["total"]["both"] > 14 * 1000
+    done = command_line(*arguments, "--tolerance", "1e-2")
+    assert (done.returncode, done.stderr) == (0, "")
+    rows = {line.split("  ")[0]: line for line in done.stdout.splitlines()}
+    assert "default mesh" in rows["B"] and "default mesh" not in rows["A"]
+    assert f"{found['depth_buffers']['total']['mean']:.4e}" in rows["depth mean"]
+    assert f"{3e-2 * found['diagonal']:.4e}" in rows["differing"]
+
+
 def test_info_lists_the_quadrics_of_set_trees(sphere_model):
     info = {"input": "sphere.pfg", **sphere_model.info()}
     for families in ({"plane": 2, "sphere": 1}, {"plane": 3}):
@@ -160,6 +175,7 @@ WRONG_USAGE = [
     ("decompress", "a.pfg", "a.ply", "--resolution", "0"),
     ("compare", "a.ply"),
     ("compare", "a.ply", "b.ply", "--samples", "0"),
+    ("compare", "a.ply", "b.ply", "--depth-buffers", "0"),
     ("info", "a.pfg", "--quick"),
 ]
 

@@ -56,6 +56,18 @@ def test_seed_and_threads():
     assert one.rms != pfgeom.compare(a, b, samples=5000, seed=2).rms
 
 
+def test_normals_away_from_creases():
+    """A sphere has no creases; a cube that is turned a little has some, near which other sides may be closest."""
+    smooth = pfgeom.compare(shapes.sphere(2), shapes.sphere(3), samples=20_000)
+    assert smooth.normal_deg_max == smooth.smooth_normal_deg_max >= smooth.normal_deg_p99 > smooth.normal_deg_mean > 1
+    vertices, faces = shapes.cube()
+    turned = vertices @ [[np.cos(0.004), np.sin(0.004), 0], [-np.sin(0.004), np.cos(0.004), 0], [0, 0, 1]]
+    cubes = pfgeom.compare((vertices, faces), (turned, faces), samples=20_000)
+    assert cubes.normal_deg_max > 45
+    assert cubes.a_to_b.smooth_normal_deg_max == pytest.approx(np.degrees(0.004))
+    assert cubes.smooth_normal_deg_mean == pytest.approx(np.degrees(0.004) * 2 / 3, rel=0.01)
+
+
 def test_plain_values():
     figures = pfgeom.compare(shapes.cube(), shapes.octahedron(), samples=1000).to_dict()
     assert json.loads(json.dumps(figures))["a_to_b"]["rms"] == figures["a_to_b"]["rms"]

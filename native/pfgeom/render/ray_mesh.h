@@ -1,4 +1,4 @@
-// Rays against a mesh part: its triangles, or fine ones near its curved faces.
+// Rays against triangles: a mesh's, or a mesh part's, or fine ones near its curved faces.
 #pragma once
 
 #include "pfgeom/function/model.h"
@@ -12,13 +12,12 @@ namespace pfgeom {
 class RayMesh final : public RayTarget {
   public:
     RayMesh(const Model& model, const Object& object, const Task& task);
+    RayMesh(const TriangleMesh& mesh, const Task& task);  ///< copies what it needs
 
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
     std::vector<Box> cover() const override { return boxes_; }
 
   private:
-    RayMesh(const TriangleMesh& mesh, const Task& task);
-
     Bvh bvh_;
     std::vector<Vec3> normals_;  // of each face
     std::vector<Box> boxes_;     // likewise

@@ -41,18 +41,30 @@ RayScene::RayScene(const Model& model, const Task& task) {
     for (std::size_t i = 0; i < model.objects.size(); ++i) {
         const Object& object = model.objects[i];
         task.report(static_cast<double>(i) / static_cast<double>(model.objects.size()), "preparing");
-        targets_.push_back(make_target(model, object, task));
-        Box box;
-        for (const Box& part : targets_.back()->cover()) box.grow(part);
-        if (box.empty()) continue;
         const bool is_cavity = object.cavity_of >= 0 && !std::holds_alternative<MeshPart>(object.shape);
-        for (const Similarity& place : copies_of(object)) {
-            const bool moved = !(place == Similarity{});
-            pieces_.push_back({targets_.back().get(), static_cast<std::int32_t>(i), moved, is_cavity, place});
-            boxes.push_back(with_margin(moved ? placed(box, place) : box));
-        }
+        add(make_target(model, object, task), copies_of(object), is_cavity, boxes);
     }
     boxes_ = BoxTree(boxes);
+}
+
+RayScene::RayScene(const TriangleMesh& mesh, const Task& task) {
+    std::vector<Box> boxes;
+    add(std::make_unique<RayMesh>(mesh, task), std::vector<Similarity>(1), false, boxes);
+    boxes_ = BoxTree(boxes);
+}
+
+void RayScene::add(std::unique_ptr<RayTarget> target, std::span<const Similarity> places, bool is_cavity,
+                   std::vector<Box>& boxes) {
+    const auto object = static_cast<std::int32_t>(targets_.size());
+    targets_.push_back(std::move(target));
+    Box box;
+    for (const Box& part : targets_.back()->cover()) box.grow(part);
+    if (box.empty()) return;
+    for (const Similarity& place : places) {
+        const bool moved = !(place == Similarity{});
+        pieces_.push_back({targets_.back().get(), object, moved, is_cavity, place});
+        boxes.push_back(with_margin(moved ? placed(box, place) : box));
+    }
 }
 
 // Of equal ones the one that comes first: pieces are met in the ray's order.

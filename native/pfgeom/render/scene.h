@@ -1,21 +1,25 @@
-// A model made ready for rays.
+// A model, or a mesh, made ready for rays.
 #pragma once
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/function/model.h"
+#include "pfgeom/mesh/triangle_mesh.h"
 #include "pfgeom/render/box_tree.h"
 #include "pfgeom/render/ray_target.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace pfgeom {
 
-/// Immutable, safe to use from many threads; made once for a model, kept for many rays. The surface is that
-/// of all objects and their copies, whatever lies within another one included.
+/// Immutable, safe to use from many threads; made once, kept for many rays. The surface is that of all
+/// objects and their copies, whatever lies within another one included.
 class RayScene {
   public:
     explicit RayScene(const Model& model, const Task& task = {});
+    /// The mesh's triangles as one object, number 0.
+    explicit RayScene(const TriangleMesh& mesh, const Task& task = {});
 
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span = {}) const;
     /// Boxes that hold the surface together, in some detail; none if there is no surface.
@@ -28,6 +32,9 @@ class RayScene {
         bool is_copy = false, is_cavity = false;
         Similarity place;
     };
+    /// The next object, wherever it lies; `boxes` are those of the pieces.
+    void add(std::unique_ptr<RayTarget> target, std::span<const Similarity> places, bool is_cavity,
+             std::vector<Box>& boxes);
     static SurfaceHit hit_of(const Piece& piece, const Ray& ray, const RaySpan& span);
 
     std::vector<std::unique_ptr<RayTarget>> targets_;  // of each object

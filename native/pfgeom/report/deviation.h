@@ -11,13 +11,19 @@
 
 namespace pfgeom {
 
+/// Angles between the normals at the samples, in degrees.
+struct NormalAngles {
+    double mean = 0, p99 = 0, max = 0;
+};
+
 /// Of the points of one surface to the other.
 struct OneSided {
     double max = 0;        ///< largest distance found at a point: a lower bound of the true maximum
     double max_bound = 0;  ///< proved upper bound of the true maximum
     double rms = 0, mean = 0, p99 = 0;  ///< over the surface's area, by stratified quadrature
     Vec3 worst;                         ///< the point where `max` was found
-    double normal_mean_deg = 0;         ///< mean angle between the normals at the samples
+    NormalAngles normals;
+    NormalAngles smooth_normals;  ///< of the samples away from creases, if asked for
 };
 
 struct Deviation {
@@ -28,12 +34,16 @@ struct Deviation {
     double rms() const;
     double mean() const;
     double p99() const;
-    double normal_mean_deg() const;
+    NormalAngles normals() const;
+    NormalAngles smooth_normals() const;
 };
 
 struct DeviationOptions {
     std::size_t samples = 200'000;  ///< a side, for rms, mean, p99, normals; 0: leave these out
     std::uint64_t seed = 1;
+    /// Also `smooth_normals`: of samples that lie, with their closest points, farther than 5e-3 of the first
+    /// mesh's diagonal from its creases (edges that turn by more than 30 degrees).
+    bool smooth_normals = false;
     bool bound = true;         ///< branch and bound for the maximum
     double gap = 0.005;        ///< relative gap at which the bound counts as closed
     double certify_below = 0;  ///< > 0: only prove (or refute) max <= this: much cheaper than finding it

@@ -65,7 +65,7 @@ TEST(Sheet, OpenQuadricsTakeTwoFunctionsAndFewBytes) {
         EXPECT_EQ(count.separators, 1);
         const Deviation d = measure_deviation(mesh, to_mesh(*decode(c.bytes)));
         EXPECT_LE(d.max(), c.model.promise.tolerance);
-        EXPECT_LT(d.normal_mean_deg(), 5) << "the faces look the same way";
+        EXPECT_LT(d.normals().mean, 5) << "the faces look the same way";
     }
 }
 

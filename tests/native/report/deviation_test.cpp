@@ -84,7 +84,10 @@ void expect_equal(const OneSided& a, const OneSided& b) {
     EXPECT_EQ(a.mean, b.mean);
     EXPECT_EQ(a.p99, b.p99);
     EXPECT_EQ(a.worst, b.worst);
-    EXPECT_EQ(a.normal_mean_deg, b.normal_mean_deg);
+    EXPECT_EQ(a.normals.mean, b.normals.mean);
+    EXPECT_EQ(a.normals.p99, b.normals.p99);
+    EXPECT_EQ(a.normals.max, b.normals.max);
+    EXPECT_EQ(a.smooth_normals.mean, b.smooth_normals.mean);
 }
 
 TEST(Deviation, ParallelSquares) {
@@ -95,7 +98,7 @@ TEST(Deviation, ParallelSquares) {
         EXPECT_DOUBLE_EQ(side.rms, 0.25);
         EXPECT_NEAR(side.mean, 0.25, 1e-12);
         EXPECT_DOUBLE_EQ(side.p99, 0.25);
-        EXPECT_EQ(side.normal_mean_deg, 0);
+        EXPECT_EQ(side.normals.max, 0);
     }
     EXPECT_TRUE(d.certified);
 }
@@ -130,8 +133,61 @@ TEST(Deviation, ScaledSphere) {
     EXPECT_GT(d.a_to_b.max, 0.0995);
     EXPECT_LT(d.a_to_b.max_bound, 0.1 * 1.005);
     EXPECT_NEAR(d.rms(), 0.1, 1e-3);
-    EXPECT_LT(d.normal_mean_deg(), 3);
+    EXPECT_LT(d.normals().mean, 3);
     EXPECT_TRUE(d.certified);
+}
+
+DeviationOptions with_smooth_normals(std::size_t samples = 20'000) {
+    DeviationOptions options;
+    options.samples = samples;
+    options.bound = false;
+    options.smooth_normals = true;
+    return options;
+}
+
+// A turned cube's sides turn by the angle; what is near an edge may fit another side and is told apart.
+TEST(Deviation, NormalsAwayFromCreases) {
+    TriangleMesh turned = shapes::cube();
+    const double s = 0.004, c = std::sqrt(1 - s * s);  // corners move by a third of the zone
+    for (Vec3& v : turned.vertices) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+    const double angle = std::atan2(s, c) * 180 / 3.14159265358979323846;
+    const Deviation d = measure_deviation(shapes::cube(), turned, with_smooth_normals());
+    for (const OneSided& side : {d.a_to_b, d.b_to_a}) {
+        EXPECT_GT(side.normals.max, 45);
+        EXPECT_NEAR(side.smooth_normals.mean, angle * 2 / 3,
+                    0.01 * angle);  // top and bottom turn in themselves
+        EXPECT_NEAR(side.smooth_normals.p99, angle, 1e-6);
+        EXPECT_NEAR(side.smooth_normals.max, angle, 1e-6);
+        EXPECT_LE(side.normals.mean, side.normals.max);
+    }
+}
+
+// Only the first mesh's creases count: a crease that the second one makes of itself is seen.
+TEST(Deviation, FalseCreasesExcuseNothing) {
+    TriangleMesh ridge = shapes::cube();
+    ridge.vertices.push_back({0, 0, 1.4});
+    ASSERT_EQ(ridge.faces[3], (Triangle{4, 7, 6}));  // the upper side becomes a pyramid
+    const auto top = static_cast<std::int32_t>(ridge.vertices.size() - 1);
+    ridge.faces.erase(ridge.faces.begin() + 2, ridge.faces.begin() + 4);
+    for (const auto& [i, j] : {std::pair{4, 5}, {5, 7}, {7, 6}, {6, 4}}) ridge.faces.push_back({i, j, top});
+    const Deviation d = measure_deviation(shapes::cube(), ridge, with_smooth_normals());
+    EXPECT_GT(d.b_to_a.smooth_normals.max, 20);
+    const Deviation same = measure_deviation(ridge, shapes::soup(ridge), with_smooth_normals());
+    EXPECT_LT(same.smooth_normals().max, 1e-6);
+}
+
+// Nothing of a small cube is away from its creases when the reach is that of a large first mesh's diagonal;
+// without the wish nothing is measured.
+TEST(Deviation, SmoothNormalsOnlyWhereThereAreAny) {
+    const TriangleMesh apart = shapes::joined(shapes::cube(1e-3), shapes::cube(1e-3, {1, 0, 0}));
+    EXPECT_EQ(measure_deviation(apart, shapes::soup(apart), with_smooth_normals()).smooth_normals().max, 0);
+    DeviationOptions options = with_smooth_normals();
+    options.smooth_normals = false;
+    const Deviation d = measure_deviation(shapes::sphere(2), shapes::sphere(3), options);
+    EXPECT_GT(d.normals().mean, 1);
+    EXPECT_EQ(d.smooth_normals().max, 0);
+    EXPECT_GT(d.normals().p99, d.normals().mean);
+    EXPECT_GE(d.normals().max, d.normals().p99);
 }
 
 TEST(Deviation, EqualSurfacesUnderOtherTriangulations) {
