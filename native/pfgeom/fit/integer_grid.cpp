@@ -9,13 +9,17 @@ namespace {
 // Coordinates stay below 2^26, well within what the codec takes.
 constexpr int kFinestCode = -8 * 26;
 
+// Places that a nearly singular system puts far away, or nowhere, stay away: their error turns them down.
+std::int32_t rounded(double x) {
+    constexpr double kFar = 1 << 27;
+    return static_cast<std::int32_t>(x > -kFar && x < kFar ? std::floor(x + 0.5) : kFar);
+}
+
 }  // namespace
 
 std::array<std::int32_t, 3> Grid::nearest(const Vec3& p) const {
     const Vec3 q = frame.to_local(p) / exp2_eighths(step_code);
-    return {static_cast<std::int32_t>(std::floor(q.x + 0.5)),
-            static_cast<std::int32_t>(std::floor(q.y + 0.5)),
-            static_cast<std::int32_t>(std::floor(q.z + 0.5))};
+    return {rounded(q.x), rounded(q.y), rounded(q.z)};
 }
 
 Vec3 Grid::point(const std::array<std::int32_t, 3>& q) const {
