@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::uint32_t kPlacementCount = 5;     // context of code_size
 constexpr std::uint32_t kPlacementOrigin = 258;  // and the two after it: contexts of code_wide
-constexpr std::size_t kRecentTurns = 64;         // that a placement can have again
 
 using Turn = std::array<std::int32_t, 4>;
 

@@ -6,6 +6,8 @@
 
 namespace pfgeom {
 
+constexpr std::size_t kRecentTurns = 64;  ///< that a placement can have again
+
 /// `scale_code`: of the object's frame. In normal form (function/placement.h); a reader's result need not be.
 void code_placements(CodecStream& stream, Placements& placements, int scale_code);
 

@@ -1,5 +1,6 @@
 #include "pfgeom/compress/place_copies.h"
 
+#include "pfgeom/codec/placement_codec.h"
 #include "pfgeom/function/frame.h"
 
 #include <algorithm>
@@ -16,7 +17,6 @@ constexpr int kFinestTurn = 8 * 20;
 constexpr double kScaleShare = 0.25;
 // Half the diagonal of a cell of places, in steps.
 constexpr double kHalfDiagonal = 0.8660254037844387;
-constexpr std::size_t kRecentTurns = 64;  // as in codec/placement_codec.cpp
 
 using Turn = std::array<std::int32_t, 4>;
 

@@ -4,7 +4,6 @@
 #include "pfgeom/report/tree_bound.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -43,10 +42,7 @@ std::optional<Outcome> try_quadric(const Goal& goal, const Task& task) {
     constexpr std::size_t kSamples = 4000;
     const FitTarget target(goal.mesh, kSamples);
     const double tolerance = goal.tolerance / target.frame.half();
-    // A power of two near a sixteenth of the tolerance: ten roundings together stay well below it.
-    int exponent = 0;
-    std::frexp(tolerance / 16, &exponent);
-    const std::optional<QuadricFit> fit = fit_quadric(target, std::ldexp(1.0, exponent - 1));
+    const std::optional<QuadricFit> fit = fit_quadric(target, rounding_step(tolerance));
     if (!fit || (goal.metric == Metric::max ? fit->max : fit->rms) > tolerance) return {};
     Outcome outcome;
     outcome.candidate = "quadric";

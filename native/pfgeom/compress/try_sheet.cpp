@@ -2,8 +2,6 @@
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/fit/sheet.h"
 
-#include <cmath>
-
 namespace pfgeom {
 namespace {
 
@@ -17,11 +15,8 @@ std::optional<Outcome> try_sheet(const Goal& goal, const Task& task) {
     FitTarget target(goal.mesh, kSamples);
     target.add_vertices(goal.mesh);
     const double tolerance = goal.tolerance / target.frame.half();
-    // As for closed quadrics: all roundings together stay well below the tolerance.
-    int exponent = 0;
-    std::frexp(tolerance / 16, &exponent);
-    const std::optional<SheetFit> fit = fit_sheet(in_cube(goal.mesh, target.frame), target,
-                                                  kFitShare * tolerance, std::ldexp(1.0, exponent - 1));
+    const std::optional<SheetFit> fit =
+        fit_sheet(in_cube(goal.mesh, target.frame), target, kFitShare * tolerance, rounding_step(tolerance));
     if (!fit) return {};
     for (const double chord : kChordShares) {
         Outcome outcome;

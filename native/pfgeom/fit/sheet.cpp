@@ -96,7 +96,7 @@ std::optional<SheetFit> fit_sheet(const TriangleMesh& mesh, const FitTarget& tar
     if (!surface) return {};
     const std::optional<Quadric> trim = simplest(samples_of_border(mesh), tolerance, step);
     if (!trim) return {};
-    return SheetFit{*surface, *trim, largest_distance(*surface, target.points)};
+    return SheetFit{*surface, *trim};
 }
 
 }  // namespace pfgeom

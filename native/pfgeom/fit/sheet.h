@@ -11,7 +11,6 @@ namespace pfgeom {
 /// The zero set of `surface` where `trim` is >= 0; faces look to where `surface` falls.
 struct SheetFit {
     Quadric surface, trim;
-    double max = 0;  ///< of the surface from the samples, to first order, in the cube's units
 };
 
 /// `mesh`: an island with a border, in the cube of `target`, which has samples of it. Planes are preferred
