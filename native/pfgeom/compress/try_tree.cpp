@@ -130,9 +130,8 @@ class TreeSearch {
     // Fitted within this share of the tolerance, certified to all of it.
     std::optional<TreeCandidate> smallest(double share, double tolerance) const {
         const double certified = tolerance / frame_.half();
-        const std::size_t settings = goal_.effort == Effort::fast ? 1 : std::size(kShares);
         for (const auto& shares : {std::span(kShares), std::span(kOtherwise)}) {
-            std::vector<TreeCandidate> trees = mended(shares.first(settings), share * certified, certified);
+            std::vector<TreeCandidate> trees = mended(shares, share * certified, certified);
             if (trees.empty()) continue;
             const double least = least_bits(trees);
             std::erase_if(trees, [](const TreeCandidate& c) { return c.proved == 0; });

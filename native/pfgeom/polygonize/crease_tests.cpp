@@ -90,19 +90,38 @@ bool CreaseTests::keeps_faces(std::int32_t h, double thinnest, double facing) co
     return true;
 }
 
-bool CreaseTests::may_merge(std::int32_t h, double limit) const {
+// The edge, and those that merging from(h) into to(h) would make.
+bool CreaseTests::keeps_heights(std::int32_t h, double limit) const {
+    if (height(h) > limit) return false;
     const std::int32_t b = m_.mesh.to(h);
-    if (!keeps_creases(h) || height(h) > limit) return false;
-    int neighbours = m_.mesh.valence(m_.mesh.twin(h)) - 4;
     std::int32_t spoke = h;
     do {
-        ++neighbours;
         const std::int32_t x = m_.mesh.to(spoke);
         if (x != b && height(m_.label_at(spoke), m_.label_at(m_.mesh.twin(spoke)), b, x) > limit)
             return false;
         spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
     } while (spoke != h);
-    return neighbours <= kMostNeighbours && keeps_faces(h, kThinnest, kFacing);
+    return true;
+}
+
+bool CreaseTests::may_merge(std::int32_t h, double limit) const {
+    const int neighbours = m_.mesh.valence(h) + m_.mesh.valence(m_.mesh.twin(h)) - 4;
+    return keeps_creases(h) && neighbours <= kMostNeighbours && keeps_heights(h, limit) &&
+           keeps_faces(h, kThinnest, kFacing);
+}
+
+bool CreaseTests::merge_mends(std::int32_t h, double tolerance) const {
+    if (!keeps_creases(h) || !keeps_heights(h, tolerance)) return false;
+    const std::int32_t b = m_.mesh.to(h);
+    int now = 0, then = 0;
+    std::int32_t spoke = h;
+    do {
+        now += turned_over(spoke / 3);
+        const std::int32_t x = m_.mesh.to(spoke), y = m_.mesh.apex(spoke);
+        then += x != b && y != b && !faces_outside(m_.label_at(spoke), at(b), at(x), at(y), kFlat, 0);
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return then < now;
 }
 
 bool CreaseTests::may_drop(std::int32_t h) const {
@@ -125,8 +144,24 @@ bool CreaseTests::should_flip(std::int32_t h, double tolerance) const {
     if (!faces_outside(label, at(c), at(d), at(b), thinnest, kFacing) ||
         !faces_outside(label, at(d), at(c), at(a), thinnest, kFacing))
         return false;
-    return c != d && m_.mesh.valence(h) > 3 && m_.mesh.valence(g) > 3 &&
+    return may_flip(h);
+}
+
+bool CreaseTests::may_flip(std::int32_t h) const {
+    const std::int32_t g = m_.mesh.twin(h), c = m_.mesh.apex(h), d = m_.mesh.apex(g);
+    return !m_.crease(h) && c != d && m_.mesh.valence(h) > 3 && m_.mesh.valence(g) > 3 &&
            !m_.mesh.joined(SurfaceMesh::previous(h), d);
+}
+
+bool CreaseTests::flip_mends(std::int32_t h, double tolerance) const {
+    const std::int32_t g = m_.mesh.twin(h);
+    const std::int32_t a = m_.mesh.from(h), b = m_.mesh.to(h), c = m_.mesh.apex(h), d = m_.mesh.apex(g);
+    const Label label = m_.label_at(h);
+    if (m_.crease(h) || height(label, c, d) > tolerance) return false;
+    const int now = turned_over(h / 3) + turned_over(g / 3);
+    const int then = !faces_outside(label, at(c), at(d), at(b), kFlat, 0) +
+                     !faces_outside(label, at(d), at(c), at(a), kFlat, 0);
+    return then < now && may_flip(h);
 }
 
 }  // namespace pfgeom

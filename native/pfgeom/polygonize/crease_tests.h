@@ -24,16 +24,28 @@ class CreaseTests {
     /// The same for edges so short that nothing is lost with them: across creases too.
     bool may_drop(std::int32_t h) const;
     bool should_flip(std::int32_t h, double tolerance) const;
+    /// Would fewer triangles be turned over, with no arc above the tolerance?
+    bool flip_mends(std::int32_t h, double tolerance) const;
+    bool merge_mends(std::int32_t h, double tolerance) const;
+    bool turned_over(std::int32_t face) const {
+        const Triangle& t = m_.mesh.faces()[face];
+        return !faces_outside(m_.label[face], at(t[0]), at(t[1]), at(t[2]), kFlat, 0);
+    }
     /// Does the triangle face the outside of the label's quadric at its corners?
     bool faces_outside(Label label, const Vec3& a, const Vec3& b, const Vec3& c, double thinnest,
                        double facing) const;
 
   private:
+    // Triangles with less height over their longest side are as bad as those that are turned over.
+    static constexpr double kFlat = 1e-3;
+
     const Vec3& at(std::int32_t v) const { return m_.mesh.position[v]; }
     double height(Label one, Label other, std::int32_t a, std::int32_t b) const;
     // Of p to the curve in which two quadrics meet; 0 if there is none within reach.
     double distance_to_curve(Label one, Label other, const Vec3& p, double reach) const;
     bool keeps_creases(std::int32_t h) const;
+    bool keeps_heights(std::int32_t h, double limit) const;
+    bool may_flip(std::int32_t h) const;
     bool keeps_faces(std::int32_t h, double thinnest, double facing) const;
 
     const LabelledMesh& m_;
