@@ -19,7 +19,7 @@ from .distances import ClosestPoints, closest_points
 from .encoder import compress
 from .errors import Cancelled, FormatError, LimitError, PfgeomError
 from .meshes import Mesh, read_mesh, write_mesh
-from .model import FunctionCount, Model, from_bytes, load
+from .model import FunctionCount, Model, SurfacePoints, from_bytes, load
 from .pictures import Picture, RayHits
 from .quadrics import nine_points
 from .tasks import CancelToken, Progress
@@ -42,6 +42,7 @@ __all__ = [
     "Picture",
     "Progress",
     "RayHits",
+    "SurfacePoints",
     "__version__",
     "closest_points",
     "compare",
