@@ -22,6 +22,7 @@ from .meshes import Mesh, read_mesh, write_mesh
 from .model import FunctionCount, Model, SurfacePoints, from_bytes, load
 from .pictures import Picture, RayHits
 from .quadrics import nine_points
+from .report_page import report
 from .tasks import CancelToken, Progress
 
 __all__ = [
@@ -51,6 +52,7 @@ __all__ = [
     "load",
     "nine_points",
     "read_mesh",
+    "report",
     "write_mesh",
 ]
 

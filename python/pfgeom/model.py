@@ -389,7 +389,8 @@ class Model:
         if not (1 <= columns < 2**31 and 1 <= rows < 2**31):
             raise ValueError(f"width and height must be 1 or more pixels, not {columns} and {rows}")
         view = as_vector(direction, "direction"), as_vector(up, "up"), slope_of_view(field_of_view), float(margin)
-        return Picture(*_core.render(self._core, columns, rows, index(samples), *view, threads, progress, cancel))
+        drawn = _core.render(self._core, None, columns, rows, index(samples), *view, threads, progress, cancel)
+        return Picture(*drawn[:5])
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:
