@@ -14,7 +14,7 @@ import logging
 
 from ._core import __version__
 from .depths import DepthBuffers, DepthFigures, DepthView
-from .deviation import Deviation, OneSided, compare
+from .deviation import Deviation, OneSided, VertexDeviations, compare
 from .distances import ClosestPoints, closest_points
 from .encoder import compress
 from .errors import Cancelled, FormatError, LimitError, PfgeomError
@@ -44,6 +44,7 @@ __all__ = [
     "Progress",
     "RayHits",
     "SurfacePoints",
+    "VertexDeviations",
     "__version__",
     "closest_points",
     "compare",

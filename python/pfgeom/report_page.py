@@ -26,6 +26,7 @@ from .report_pictures import BETWEEN, HEIGHT, INSIDE, OUTSIDE, VIEWS, WIDTH, dra
 from .tasks import CancelToken, Progress, check_task
 
 _DEPTH_BUFFERS = 512  # pixels across
+_LEAST = 1e-9  # of the diagonal: the end of a scale for what does not deviate
 
 
 def report(
@@ -109,7 +110,7 @@ def report(
 def _views(
     original: Mesh, model: Model, rebuilt: Mesh, deviation: Deviation, threads: int, cancel: CancelToken | None
 ) -> str:
-    scale = _scale(deviation)
+    scale = max(deviation.p99, _LEAST * deviation.diagonal)  # the largest alone would leave the rest pale
     shown = []
     for number, view in enumerate(VIEWS):
         before, after = (draw(shape, original, view, threads, cancel) for shape in (original, model))
@@ -129,11 +130,6 @@ def _views(
     return "".join(shown)
 
 
-def _scale(deviation: Deviation) -> float:
-    """The ends of scales: the largest deviation, or what rounding leaves of none."""
-    return max(deviation.max, 1e-9 * deviation.diagonal)
-
-
 def _image(colours: NDArray[np.uint8], text: str, kind: str) -> str:
     data = base64.b64encode(png_bytes(colours)).decode()
     return f'<img class={kind} width={WIDTH} height={HEIGHT} alt="{text}" src="data:image/png;base64,{data}">'
@@ -144,13 +140,13 @@ def _legend(scale: float, diagonal: float) -> str:
     return (
         f"<figcaption><span class=scale style='background:linear-gradient(90deg, {stops})'></span>"
         f"<span class=ends><span>−{scale:.2e}</span><span>0</span><span>+{scale:.2e}</span></span>"
-        f"Blue: the rebuilt surface lies inside the mesh; red: outside. In the mesh's units; the ends are "
-        f"{scale / diagonal:.1e} of the diagonal.</figcaption>"
+        f"Blue: the rebuilt surface lies inside the mesh; red: outside. In the mesh's units; the ends are the 99th "
+        f"percentile, {scale / diagonal:.1e} of the diagonal.</figcaption>"
     )
 
 
 def _histograms(original: Mesh, rebuilt: Mesh, deviation: Deviation, threads: int, cancel: CancelToken | None) -> str:
-    reach = _scale(deviation)
+    reach = max(deviation.max, _LEAST * deviation.diagonal)
     ways = (("mesh to functions", original, rebuilt), ("functions to mesh", rebuilt, original))
     return "".join(
         f"<figure>{_bars(histogram(a, b, reach, threads, cancel), label)}<figcaption>{label}, by area"
