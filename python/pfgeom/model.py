@@ -232,8 +232,8 @@ class Model:
         Parameters
         ----------
         points : (..., 3)
-            In the mesh's units. Points closer to the surface than its radius of curvature take some microseconds,
-            those that much of a bumpy surface is equally far from some milliseconds.
+            In the mesh's units. Points near smooth or flat parts take some 10 microseconds each; near bumpy surfaces
+            up to a millisecond, and some milliseconds where much of the surface is nearly equally far.
         accuracy
             What ``distances - proved`` shall not exceed, as a share of `diagonal`; at least 1e-9. It may where a
             budget of work is used up. Curved faces of mesh parts count as triangles within 1e-5 of the diagonal.
