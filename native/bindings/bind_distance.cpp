@@ -3,6 +3,7 @@
 #include "job.h"
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/mesh/bvh.h"
+#include "pfgeom/mesh/signed_distance.h"
 
 #include <cmath>
 #include <limits>
@@ -58,6 +59,38 @@ Closest find_all(const TriangleMesh& mesh, const std::vector<Vec3>& queries, con
     return found;
 }
 
+/// From the closest points: > 0 where the normal at the closest point looks to.
+std::vector<double> signed_distances(const TriangleMesh& mesh, const std::vector<Vec3>& queries,
+                                     const Task& task) {
+    const Bvh bvh(mesh, quiet(task, task.threads));
+    const SignedDistance sides(mesh, bvh);
+    std::vector<double> distances(queries.size());
+    for (std::size_t first = 0; first < queries.size(); first += kBlock) {
+        const std::size_t count = std::min(kBlock, queries.size() - first);
+        parallel_chunks(count, kChunk, task, [&](std::size_t begin, std::size_t end) {
+            std::int32_t hint = -1;
+            for (std::size_t i = first + begin; i < first + end; ++i) {
+                const SignedClosest closest = sides(queries[i], hint);
+                hint = closest.face;
+                distances[i] = -closest.distance;
+            }
+        });
+        task.report(static_cast<double>(first + count) / static_cast<double>(queries.size()), "searching");
+    }
+    return distances;
+}
+
+py::array signed_array(const Points& points, const Points& vertices, const Indices& faces, int threads,
+                       py::object progress, const CancelToken* cancel) {
+    const auto mesh = std::make_shared<const TriangleMesh>(mesh_from(vertices, faces));
+    Job job(threads, std::move(progress), cancel);
+    std::vector<double> distances = job.run([=, queries = points_from(points)](const Task& task) {
+        return signed_distances(*mesh, queries, task);
+    });
+    const auto count = static_cast<py::ssize_t>(distances.size());
+    return array_of<double>(std::move(distances), {count});
+}
+
 py::tuple closest_arrays(const Points& points, const Points& vertices, const Indices& faces, int threads,
                          py::object progress, const CancelToken* cancel) {
     const auto mesh = std::make_shared<const TriangleMesh>(mesh_from(vertices, faces));
@@ -74,6 +107,8 @@ py::tuple closest_arrays(const Points& points, const Points& vertices, const Ind
 
 void bind_distance(py::module_& m) {
     m.def("closest_points", &closest_arrays, py::arg("points").noconvert(), py::arg("vertices").noconvert(),
+          py::arg("faces").noconvert(), py::arg("threads"), py::arg("progress"), py::arg("cancel"));
+    m.def("signed_distances", &signed_array, py::arg("points").noconvert(), py::arg("vertices").noconvert(),
           py::arg("faces").noconvert(), py::arg("threads"), py::arg("progress"), py::arg("cancel"));
 }
 

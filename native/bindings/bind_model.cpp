@@ -7,7 +7,9 @@
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/compress.h"
+#include "pfgeom/compress/surface_size.h"
 #include "pfgeom/function/check.h"
+#include "pfgeom/render/closest.h"
 #include "pfgeom/report/function_list.h"
 
 #include <pybind11/stl.h>
@@ -107,9 +109,49 @@ py::list names_of(const ModelHandle& handle) {
     return names;
 }
 
+/// Of the bounds, as a share of the diagonal.
+constexpr double kBoundsAccuracy = 1e-6;
+
 py::array bounds_of(const ModelPointer& handle) {
-    const Box box = Job().run([=](const Task&) { return handle->field().bounds(); });
+    const Box box = Job().run([=](const Task& task) {
+        const Task quietly = quiet(task, task.threads);
+        return handle->scene(quietly).bounds(kBoundsAccuracy * handle->model().diagonal, quietly);
+    });
     return array_from<double>(std::vector<Vec3>{box.lo, box.hi});
+}
+
+py::tuple size_of(const ModelPointer& handle, double tolerance, int threads, py::object progress,
+                  const CancelToken* cancel) {
+    Job job(threads, std::move(progress), cancel);
+    const SurfaceSize size =
+        job.run([=](const Task& task) { return surface_size(handle->model(), tolerance, task); });
+    return py::make_tuple(size.area, size.volume);
+}
+
+/// The share of a search's progress that making the scene is.
+constexpr double kPreparing = 0.2;
+
+py::tuple closest_on_model(const ModelPointer& handle, const Points& points, double accuracy, int threads,
+                           py::object progress, const CancelToken* cancel) {
+    Job job(threads, std::move(progress), cancel);
+    const std::vector<NearestPoint> found = job.run([=, rows = points_from(points)](const Task& task) {
+        const RayScene& scene = handle->scene(part_of(task, 0, kPreparing));
+        return closest_points(scene, rows, accuracy, part_of(task, kPreparing, 1));
+    });
+    std::vector<Vec3> places;
+    std::vector<double> distances, proved;
+    std::vector<std::int32_t> objects;
+    for (const NearestPoint& nearest : found) {
+        const bool none = nearest.object < 0;
+        places.push_back(none ? Vec3{kNaN, kNaN, kNaN} : nearest.point);
+        distances.push_back(none ? kNaN : nearest.distance);
+        proved.push_back(none ? kNaN : nearest.proved);
+        objects.push_back(nearest.object);
+    }
+    const auto count = static_cast<py::ssize_t>(found.size());
+    return py::make_tuple(
+        array_from<double>(std::move(places)), array_of<double>(std::move(distances), {count}),
+        array_of<double>(std::move(proved), {count}), array_of<std::int32_t>(std::move(objects), {count}));
 }
 
 }  // namespace
@@ -124,6 +166,10 @@ void bind_model(py::module_& m) {
         .def("gradients", &gradients_at, py::arg("points").noconvert(), py::arg("threads"))
         .def("contains", &contains_at, py::arg("points").noconvert(), py::arg("threads"))
         .def("bounds", &bounds_of)
+        .def("closest_points", &closest_on_model, py::arg("points").noconvert(), py::arg("accuracy"),
+             py::arg("threads"), py::arg("progress"), py::arg("cancel"))
+        .def("size", &size_of, py::arg("tolerance"), py::arg("threads"), py::arg("progress"),
+             py::arg("cancel"))
         .def("names", &names_of)
         .def("world_transform", [](const ModelHandle& h) { return h.model().world_transform; })
         .def("placed", &placed, py::arg("names"), py::arg("world_transform"))

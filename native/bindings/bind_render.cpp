@@ -3,11 +3,13 @@
 #include "job.h"
 #include "model_handle.h"
 #include "pfgeom/render/render.h"
+#include "shape_handle.h"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,23 +65,35 @@ Vec3 vector_of(const Triple& values) {
     return {values[0], values[1], values[2]};
 }
 
-py::tuple draw(const ModelPointer& handle, int width, int height, int samples, const Triple& direction,
-               const Triple& up, double slope, double margin, int threads, py::object progress,
-               const CancelToken* cancel) {
+/// What the points of a picture are worked out from: an eye, three axes, and whether it is orthographic.
+py::tuple describe_camera(const Camera& camera) {
+    const std::vector<Vec3> rows{camera.eye, camera.forward, camera.right, camera.up};
+    return py::make_tuple(array_from<double>(rows), camera.orthographic);
+}
+
+/// `fitted`: what the camera sees as large as possible; the shape itself, unless it is another one.
+py::tuple draw(const ShapeArgument& shape, const std::optional<ShapeArgument>& fitted, int width, int height,
+               int samples, const Triple& direction, const Triple& up, double slope, double margin,
+               int threads, py::object progress, const CancelToken* cancel) {
     Job job(threads, std::move(progress), cancel);
     const PictureSize size{width, height, samples};
     const View view{vector_of(direction), vector_of(up), slope, margin};
-    Picture picture = job.run([=](const Task& task) {
+    std::optional<ShapeHandle> other;
+    if (fitted) other.emplace(*fitted);
+    auto [picture, camera] = job.run([=, drawn = ShapeHandle(shape)](const Task& task) {
         check_size(size);
-        const RayScene& scene = handle->scene(part_of(task, 0, kPreparing));
-        return render(scene, fit_camera(scene.cover(), view, size), size, part_of(task, kPreparing, 1));
+        const auto scene = drawn.scene(part_of(task, 0, kPreparing));
+        const Task quietly = quiet(task, task.threads);
+        const Camera from = fit_camera(other ? other->scene(quietly)->cover() : scene->cover(), view, size);
+        return std::pair(render(*scene, from, size, part_of(task, kPreparing, 1)), from);
     });
     const py::ssize_t rows = height, columns = width;
     return py::make_tuple(array_of<std::uint8_t>(std::move(picture.colours), {rows, columns, 4}),
                           array_of<double>(std::move(picture.depth), {rows, columns}),
                           array_of<float>(std::move(picture.normals), {rows, columns, 3}),
                           array_of<std::int32_t>(std::move(picture.objects), {rows, columns}),
-                          array_of<std::int32_t>(std::move(picture.functions), {rows, columns}));
+                          array_of<std::int32_t>(std::move(picture.functions), {rows, columns}),
+                          describe_camera(camera));
 }
 
 }  // namespace
@@ -88,9 +102,9 @@ void bind_render(py::module_& m) {
     m.def("raycast", &cast, py::arg("model"), py::arg("origins").noconvert(),
           py::arg("directions").noconvert(), py::arg("start"), py::arg("end"), py::arg("threads"),
           py::arg("progress"), py::arg("cancel"));
-    m.def("render", &draw, py::arg("model"), py::arg("width"), py::arg("height"), py::arg("samples"),
-          py::arg("direction"), py::arg("up"), py::arg("slope"), py::arg("margin"), py::arg("threads"),
-          py::arg("progress"), py::arg("cancel"));
+    m.def("render", &draw, py::arg("shape"), py::arg("fitted"), py::arg("width"), py::arg("height"),
+          py::arg("samples"), py::arg("direction"), py::arg("up"), py::arg("slope"), py::arg("margin"),
+          py::arg("threads"), py::arg("progress"), py::arg("cancel"));
 }
 
 }  // namespace pfgeom::bindings

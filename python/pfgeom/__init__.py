@@ -14,14 +14,15 @@ import logging
 
 from ._core import __version__
 from .depths import DepthBuffers, DepthFigures, DepthView
-from .deviation import Deviation, OneSided, compare
+from .deviation import Deviation, OneSided, VertexDeviations, compare
 from .distances import ClosestPoints, closest_points
 from .encoder import compress
 from .errors import Cancelled, FormatError, LimitError, PfgeomError
 from .meshes import Mesh, read_mesh, write_mesh
-from .model import FunctionCount, Model, from_bytes, load
+from .model import FunctionCount, Model, SurfacePoints, from_bytes, load
 from .pictures import Picture, RayHits
 from .quadrics import nine_points
+from .report_page import report
 from .tasks import CancelToken, Progress
 
 __all__ = [
@@ -42,6 +43,8 @@ __all__ = [
     "Picture",
     "Progress",
     "RayHits",
+    "SurfacePoints",
+    "VertexDeviations",
     "__version__",
     "closest_points",
     "compare",
@@ -50,6 +53,7 @@ __all__ = [
     "load",
     "nine_points",
     "read_mesh",
+    "report",
     "write_mesh",
 ]
 

@@ -24,6 +24,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_info(commands)
     _add_compare(commands)
     _add_render(commands)
+    _add_report(commands)
     return parser
 
 
@@ -108,6 +109,18 @@ def _add_render(commands: Any) -> None:
     command.add_argument(
         "--samples", type=_count, default=2, metavar="N", help="N x N rays a pixel, up to 16 (default 2)"
     )
+    _add_common(command)
+
+
+def _add_report(commands: Any) -> None:
+    command = commands.add_parser("report", help="a page that shows a mesh beside the functions it became")
+    command.add_argument("mesh", metavar="MESH", help="OBJ, PLY, STL or OFF file")
+    command.add_argument("model", metavar="MESH.pfg", nargs="?", help="without it the mesh is compressed")
+    command.add_argument("output", metavar="OUT.html", type=_path_ending(".html", ".htm"))
+    command.add_argument(
+        "--tolerance", type=_positive, default=1e-3, metavar="T",
+        help="for a mesh without its .pfg: allowed deviation, as a share of the diagonal (default 1e-3)",
+    )  # fmt: skip
     _add_common(command)
 
 

@@ -1,4 +1,4 @@
-"""The command line: compress, decompress, info, compare, render.
+"""The command line: compress, decompress, info, compare, render, report.
 
 Exit codes: 0 done, 1 failed (one sentence on stderr), 2 wrong usage, 130 interrupted. Results go to stdout, as a
 table or with ``--json`` as one object; the progress bar goes to stderr, if that is a terminal.
@@ -25,6 +25,7 @@ from .meshes import Mesh, read_mesh, write_mesh
 from .model import Model, load
 from .pictures import Picture
 from .progress import progress_bar
+from .report_page import report
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -36,6 +37,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         "info": run_info,
         "compare": run_compare,
         "render": run_render,
+        "report": run_report,
     }
     try:
         commands[args.command](args)
@@ -136,6 +138,16 @@ def run_render(args: argparse.Namespace) -> None:
     _print(args, render_figures(args, model, picture, seconds), tables.rendered)
 
 
+def run_report(args: argparse.Namespace) -> None:
+    _check_target(args.output)
+    start = time.perf_counter()
+    with progress_bar(quiet=args.quiet) as progress:
+        report(
+            args.output, args.mesh, args.model, tolerance=args.tolerance, threads=args.threads, progress=progress
+        )  # fmt: skip
+    _print(args, report_figures(args, time.perf_counter() - start), tables.reported)
+
+
 # --- figures: what --json prints and the tables show -----------------------------------------------------------
 
 
@@ -187,6 +199,11 @@ def render_figures(args: argparse.Namespace, model: Model, picture: Picture, sec
         "covered": float((picture.objects >= 0).mean()),
         "seconds": seconds,
     }
+
+
+def report_figures(args: argparse.Namespace, seconds: float) -> dict[str, Any]:
+    size = Path(args.output).stat().st_size
+    return {"mesh": args.mesh, "model": args.model, "output": args.output, "page_bytes": size, "seconds": seconds}
 
 
 def _promise_figures(model: Model) -> dict[str, Any]:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import asdict, dataclass, field
-from typing import Any
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from . import _core
 from .depths import DepthBuffers, check_side, compare_depths
@@ -49,6 +52,28 @@ class OneSided:
     worst: tuple[float, float, float]
 
 
+class VertexDeviations(NamedTuple):
+    """Of each vertex to the other surface, for heat maps; lengths in the meshes' units.
+
+    Their magnitude is the distance. They are positive where the closest point's normal looks to, which is outside of a
+    closed surface; of an open one the sign says the side nearby.
+
+    Attributes
+    ----------
+    mesh_a, mesh_b : Mesh
+        What was measured: the meshes, or the default meshes of models.
+    a_to_b : (n,) float64
+        Of the vertices of ``mesh_a``.
+    b_to_a : (m,) float64
+        Of the vertices of ``mesh_b``.
+    """
+
+    mesh_a: Mesh
+    mesh_b: Mesh
+    a_to_b: NDArray[np.float64]
+    b_to_a: NDArray[np.float64]
+
+
 @dataclass(frozen=True, slots=True)
 class Deviation:
     """Two-sided deviation: each figure is the worse of both directions; lengths in the meshes' units.
@@ -68,6 +93,8 @@ class Deviation:
     surfaces : (2,) str
         What the figures above are about, of each side: ``"mesh"``, or ``"default mesh"`` of a model. Depth buffers
         are drawn from the functions themselves. Not part of equality.
+    vertices : VertexDeviations or None
+        If they were asked for. Neither part of equality nor of `to_dict`.
     """
 
     max: float
@@ -87,10 +114,13 @@ class Deviation:
     b_to_a: OneSided
     depth_buffers: DepthBuffers | None = None
     surfaces: tuple[str, str] = field(default=("mesh", "mesh"), compare=False)
+    vertices: VertexDeviations | None = field(default=None, compare=False, repr=False)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values, for JSON."""
-        return asdict(self)
+        values = asdict(replace(self, vertices=None))
+        del values["vertices"]
+        return values
 
 
 def compare(
@@ -102,6 +132,7 @@ def compare(
     bound: bool = True,
     depth_buffers: int | None = None,
     tolerance: float | None = None,
+    vertices: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
     cancel: CancelToken | None = None,
@@ -124,6 +155,8 @@ def compare(
     tolerance
         For depth buffers, three of which count as a difference: a share of the diagonal of ``a``. Without it that of
         the model, the second one of two, or 1e-3.
+    vertices
+        Whether to give the deviation of each vertex, too.
     threads, progress, cancel
         As for `pfgeom.compress`.
 
@@ -156,7 +189,14 @@ def compare(
         length = _length(tolerance, figures["diagonal"], shapes)
         figures["depth_buffers"] = compare_depths(*shapes, side, length, threads, _part(progress, half, 1), cancel)
     first, second = ("default mesh" if isinstance(shape, Model) else "mesh" for shape in shapes)
+    figures["vertices"] = _by_vertex(meshes[0], meshes[1], threads, cancel) if vertices else None
     return Deviation(**figures, surfaces=(first, second))
+
+
+def _by_vertex(a: Mesh, b: Mesh, threads: int, cancel: CancelToken | None) -> VertexDeviations:
+    there = _core.signed_distances(a.vertices, *b, threads, None, cancel)
+    back = _core.signed_distances(b.vertices, *a, threads, None, cancel)
+    return VertexDeviations(a, b, there, back)
 
 
 def _shape(shape: Any) -> Mesh | Model:

@@ -105,6 +105,10 @@ def rendered(f: dict[str, Any]) -> list[Row]:
     ]
 
 
+def reported(f: dict[str, Any]) -> list[Row]:
+    return [("page bytes", f"{f['page_bytes']:,}", f["output"]), ("seconds", f"{f['seconds']:.2f}", "")]
+
+
 def _angles(f: dict[str, Any], label: str, name: str, where: str) -> Row:
     rest = f"p99 {f[f'{name}_p99']:.3f}, max {f[f'{name}_max']:.3f}"
     return (label, f"{f[f'{name}_mean']:.3f}", f"degrees, mean; {rest}{where}")

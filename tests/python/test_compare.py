@@ -77,3 +77,24 @@ def test_plain_values():
 def test_bad_samples(samples):
     with pytest.raises(ValueError, match="samples"):
         pfgeom.compare(shapes.cube(), shapes.cube(), samples=samples)
+
+
+def test_deviation_by_vertex_is_signed_and_agrees_with_the_figures():
+    vertices, faces = shapes.sphere(4)
+    larger = 1.02 * vertices
+    found = pfgeom.compare((vertices, faces), (larger, faces), vertices=True)
+    by = found.vertices
+    assert by.a_to_b.shape == by.b_to_a.shape == (len(vertices),)
+    assert (by.a_to_b < 0).all() and (by.b_to_a > 0).all()  # the smaller one lies inside
+    assert by.b_to_a == pytest.approx(np.full(len(vertices), 0.02), abs=2e-4)
+    assert np.abs(by.a_to_b).max() <= found.a_to_b.max_bound and np.abs(by.b_to_a).max() <= found.b_to_a.max_bound
+    distances = pfgeom.closest_points(vertices, larger, faces).distances
+    np.testing.assert_allclose(np.abs(by.a_to_b), distances, atol=1e-12)
+    assert "vertices" not in found.to_dict()
+    assert pfgeom.compare((vertices, faces), (larger, faces)).vertices is None
+
+
+def test_deviation_by_vertex_of_models_names_their_meshes(sphere_model):
+    mesh = shapes.sphere()
+    by = pfgeom.compare(mesh, sphere_model, vertices=True).vertices
+    assert len(by.mesh_b.vertices) == len(by.b_to_a) == len(sphere_model.to_mesh().vertices)

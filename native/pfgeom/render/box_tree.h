@@ -48,6 +48,13 @@ class BoxTree {
         if (!nodes_.empty()) walk(0, BoxRay(ray), span, visit);
     }
 
+    /// visit(row of the boxes) for those nearer to p than `within`, the nearest first at each fork; it may
+    /// lower `within`.
+    template <class Visit>
+    void walk_near(const Vec3& p, double& within, Visit visit) const {
+        if (!nodes_.empty()) walk_near(0, p, within, visit);
+    }
+
   private:
     // An inner node's children are `first` and `first` + 1.
     struct Node {
@@ -71,6 +78,20 @@ class BoxTree {
             if (part.from <= part.to && part.from <= span.to)
                 walk(node.first + (second ? 1 : 0), ray, span, visit);
         }
+    }
+
+    template <class Visit>
+    void walk_near(std::int32_t index, const Vec3& p, double& within, Visit& visit) const {
+        const Node& node = nodes_[static_cast<std::size_t>(index)];
+        if (!(std::sqrt(node.box.squared_distance(p)) < within)) return;
+        if (node.item >= 0) {
+            visit(node.item);
+            return;
+        }
+        const auto first = static_cast<std::size_t>(node.first);
+        const double a = nodes_[first].box.squared_distance(p), b = nodes_[first + 1].box.squared_distance(p);
+        const int nearer = b < a ? 1 : 0;
+        for (const int child : {nearer, 1 - nearer}) walk_near(node.first + child, p, within, visit);
     }
 
     std::vector<Node> nodes_;

@@ -75,6 +75,7 @@ class CellSum {
         cell.error = error + kSlack * (std::abs(jet_.value) + rise + error + size_);
         cell.range = {jet_.value - rise - cell.error, jet_.value + rise + cell.error};
         cell.bend = whole_bend_;
+        cell.added_bend = added_bend_;
     }
 
   private:
@@ -89,6 +90,7 @@ class CellSum {
     }
 
     void add_term(const Jet& jet, double bend, double factor, const Interval& q) {
+        added_bend_ += bend;
         const double low = cubed(q.lo), high = cubed(q.hi), spread = 0.5 * std::abs(factor) * (high - low);
         if (0.5 * bend * squared_reach_ < spread) {
             add_jet(jet, bend);
@@ -104,7 +106,7 @@ class CellSum {
     Vec3 centre_, half_;
     double squared_reach_;
     Jet jet_;
-    double bend_ = 0, spread_ = 0, size_ = 0, whole_bend_ = 0;
+    double bend_ = 0, spread_ = 0, size_ = 0, whole_bend_ = 0, added_bend_ = 0;
 };
 
 }  // namespace

@@ -39,8 +39,9 @@ class FunctionTerms {
 
 /// What holds in a box.
 struct CellFunction {
-    Interval range;   ///< of the function
-    double bend = 0;  ///< the norm of its Hessian is at most this
+    Interval range;         ///< of the function
+    double bend = 0;        ///< the norm of its Hessian is at most this
+    double added_bend = 0;  ///< … that of the terms together, without the base quadric
     /// The function is within `error` of linear.value + linear.gradient · (p - centre).
     Vec3 centre;
     Jet linear;

@@ -15,12 +15,16 @@ class RayMesh final : public RayTarget {
     RayMesh(const TriangleMesh& mesh, const Task& task);  ///< copies what it needs
 
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const override;
+    Extreme extreme(const SearchGoal& goal, double within, double accuracy,
+                    ExtremeSearch& search) const override;
     std::vector<Box> cover() const override { return boxes_; }
 
   private:
     Bvh bvh_;
     std::vector<Vec3> normals_;  // of each face
     std::vector<Box> boxes_;     // likewise
+    std::vector<Vec3> vertices_;
+    double chord_ = 0;  // the triangles are this close to curved faces
 };
 
 }  // namespace pfgeom

@@ -1,7 +1,9 @@
 #include "pfgeom/render/ray_solid.h"
 
 #include "pfgeom/render/ellipsoid_box.h"
+#include "pfgeom/render/local_extreme.h"
 #include "pfgeom/render/make_octree.h"
+#include "pfgeom/render/solid_regions.h"
 
 #include <algorithm>
 
@@ -158,6 +160,43 @@ SurfaceHit RaySolid::with_normal(SurfaceHit hit, const Ray& ray, std::int32_t le
     }
     hit.function = rows_[row];
     return hit;
+}
+
+Extreme RaySolid::extreme(const SearchGoal& goal, double within, double accuracy,
+                          ExtremeSearch& search) const {
+    return extreme_in(place_, *this, goal, within, accuracy, search);
+}
+
+void RaySolid::regions(std::int32_t leaf, Side side, std::vector<SignRegion>& regions) const {
+    const SolidLeaf& left = leaves_[static_cast<std::size_t>(leaf)];
+    if (side == Side::sheet) {
+        SignRegion sheet;
+        sheet.add({0, Sense::zero});
+        if (left.live.size() > 1) sheet.add({1, Sense::positive});
+        regions.assign(1, sheet);
+    } else {
+        regions_of(left.nodes, side == Side::inside, regions);
+    }
+}
+
+Expansion RaySolid::expand(std::int32_t leaf, std::int32_t function, const Vec3& at) const {
+    const LiveFunction& live =
+        leaves_[static_cast<std::size_t>(leaf)].live[static_cast<std::size_t>(function)];
+    const FunctionTerms& terms = functions_[static_cast<std::size_t>(live.function)];
+    const Jet jet = terms.jet(at, live.in_cell.live);
+    Expansion expansion{jet.value, jet.gradient, {}, {}};
+    set_curvature(terms.base(), live.in_cell.added_bend, expansion);
+    return expansion;
+}
+
+bool RaySolid::is_inside(std::int32_t leaf, const Vec3& p) const {
+    const SolidLeaf& left = leaves_[static_cast<std::size_t>(leaf)];
+    std::vector<std::uint8_t> signs, scratch;
+    for (const LiveFunction& live : left.live) {
+        const FunctionTerms& terms = functions_[static_cast<std::size_t>(live.function)];
+        signs.push_back(terms.value(p, live.in_cell.live) >= 0 ? 1 : 0);
+    }
+    return pfgeom::is_inside(left.nodes, signs, scratch);
 }
 
 std::vector<Box> RaySolid::cover() const {

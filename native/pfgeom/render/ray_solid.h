@@ -7,17 +7,20 @@
 #include "pfgeom/render/ray_octree.h"
 #include "pfgeom/render/ray_target.h"
 #include "pfgeom/render/solid_leaf.h"
+#include "pfgeom/render/surface_cells.h"
 
 #include <vector>
 
 namespace pfgeom {
 
-class RaySolid final : public RayTarget {
+class RaySolid final : public RayTarget, private SurfaceCells {
   public:
     RaySolid(const Model& model, const Solid& solid, const Frame& frame, const Task& task);
     RaySolid(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task);
 
     SurfaceHit first_hit(const Ray& world, const RaySpan& span) const override;
+    Extreme extreme(const SearchGoal& goal, double within, double accuracy,
+                    ExtremeSearch& search) const override;
     std::vector<Box> cover() const override;
     std::size_t leaf_count() const { return leaves_.size(); }
 
@@ -27,6 +30,11 @@ class RaySolid final : public RayTarget {
     Box box() const;
     SolidLeaf in_cell(const SolidLeaf& parent, const Box& cell) const;
     void make(const Task& task);
+    const RayOctree& octree() const override { return octree_; }
+    bool open() const override { return open_; }
+    void regions(std::int32_t leaf, Side side, std::vector<SignRegion>& regions) const override;
+    Expansion expand(std::int32_t leaf, std::int32_t function, const Vec3& at) const override;
+    bool is_inside(std::int32_t leaf, const Vec3& p) const override;
     SurfaceHit with_normal(SurfaceHit hit, const Ray& ray, std::int32_t leaf) const;
 
     CubePlace place_;

@@ -3,12 +3,14 @@
 // the parts are walked in order, as far as the first change of sides.
 #include "pfgeom/render/ray_tree.h"
 
+#include "pfgeom/render/local_extreme.h"
 #include "pfgeom/render/make_octree.h"
 #include "pfgeom/render/parabola.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 namespace pfgeom {
 namespace {
@@ -101,8 +103,7 @@ void RayTree::make(const Task& task) {
 SurfaceHit RayTree::first_hit(const Ray& world, const RaySpan& span) const {
     const LocalRay local(place_, world, span, octree_.box.centre());
     const auto ask = [&](std::int32_t leaf, const RaySpan& part) {
-        const auto nodes = std::span(nodes_).subspan(static_cast<std::size_t>(first_[leaf]));
-        return LeafCut(pruner_, nodes, local.ray()).run(part);
+        return LeafCut(pruner_, nodes_of(leaf), local.ray()).run(part);
     };
     return local.to_world(with_normal(first_hit_in(octree_, local.ray(), local.span(), ask), local.ray()));
 }
@@ -113,6 +114,44 @@ SurfaceHit RayTree::with_normal(SurfaceHit hit, const Ray& ray) const {
     hit.normal = along(pruner_.quadric(hit.function).gradient(ray.at(hit.t)), hit.normal);
     if (static_cast<std::size_t>(hit.function) >= quadrics_) hit.function = -1;
     return hit;
+}
+
+Extreme RayTree::extreme(const SearchGoal& goal, double within, double accuracy,
+                         ExtremeSearch& search) const {
+    return extreme_in(place_, *this, goal, within, accuracy, search);
+}
+
+// Each path to an end of that side is a region.
+void RayTree::regions(std::int32_t leaf, Side side, std::vector<SignRegion>& regions) const {
+    regions.clear();
+    const std::span<const PrunedNode> nodes = nodes_of(leaf);
+    std::vector<std::pair<std::int32_t, SignRegion>> open{{0, {}}};
+    while (!open.empty()) {
+        const auto [index, region] = open.back();
+        open.pop_back();
+        const PrunedNode& node = nodes[static_cast<std::size_t>(index)];
+        if (node.question < 0) {
+            if (node.inside == (side == Side::inside)) regions.push_back(region);
+            continue;
+        }
+        open.emplace_back(node.low, region).second.add({node.question, Sense::negative});
+        open.emplace_back(index + 1, region).second.add({node.question, Sense::positive});
+    }
+}
+
+Expansion RayTree::expand(std::int32_t /*leaf*/, std::int32_t function, const Vec3& at) const {
+    const Quadric& quadric = pruner_.quadric(function);
+    Expansion expansion{quadric.value(at), quadric.gradient(at), {}, {}};
+    set_curvature(quadric, 0, expansion);
+    return expansion;
+}
+
+bool RayTree::is_inside(std::int32_t leaf, const Vec3& p) const {
+    const std::span<const PrunedNode> nodes = nodes_of(leaf);
+    std::size_t i = 0;
+    while (nodes[i].question >= 0)
+        i = pruner_.quadric(nodes[i].question).value(p) >= 0 ? i + 1 : static_cast<std::size_t>(nodes[i].low);
+    return nodes[i].inside;
 }
 
 std::vector<Box> RayTree::cover() const {

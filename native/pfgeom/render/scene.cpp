@@ -1,5 +1,6 @@
 #include "pfgeom/render/scene.h"
 
+#include "pfgeom/base/parallel.h"
 #include "pfgeom/render/ray_mesh.h"
 #include "pfgeom/render/ray_solid.h"
 #include "pfgeom/render/ray_tree.h"
@@ -78,6 +79,54 @@ SurfaceHit RayScene::first_hit(const Ray& ray, const RaySpan& span) const {
         part.to = hit.t;
     });
     return best;
+}
+
+NearestPoint RayScene::nearest(const Vec3& p, double accuracy, ExtremeSearch& search) const {
+    NearestPoint best;
+    double within = std::numeric_limits<double>::infinity();
+    boxes_.walk_near(p, within, [&](std::int32_t row) {
+        const Piece& piece = pieces_[static_cast<std::size_t>(row)];
+        const double scale = piece.is_copy ? piece.place.scale : 1;
+        const SearchGoal goal{piece.is_copy ? piece.place.apply_inverse(p) : p, false};
+        const Extreme found = piece.target->extreme(goal, within / scale, accuracy / scale, search);
+        best.proved = std::min(best.proved, found.proved * scale);
+        const double distance = found.cost * scale;
+        if (!(distance < best.distance || (distance == best.distance && piece.object < best.object))) return;
+        best.point = piece.is_copy ? piece.place.apply(found.point) : found.point;
+        best.distance = distance;
+        best.object = piece.object;
+        within = distance;
+    });
+    best.proved = std::max(std::min(best.proved, best.distance), 0.0);
+    return best;
+}
+
+Box RayScene::bounds(double accuracy, const Task& task) const {
+    Box all;
+    std::vector<Box> boxes(pieces_.size());
+    parallel_chunks(pieces_.size(), 1, task, [&](std::size_t row, std::size_t) {
+        const Piece& piece = pieces_[row];
+        ExtremeSearch search(task);
+        Vec3 lo, hi;
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const double sign : {-1.0, 1.0}) {
+                Vec3 direction;
+                direction[axis] = sign;
+                const SearchGoal goal{piece.is_copy ? piece.place.turn_back(direction) : direction, true};
+                const double scale = piece.is_copy ? piece.place.scale : 1;
+                const Extreme found = piece.target->extreme(goal, std::numeric_limits<double>::infinity(),
+                                                            accuracy / scale, search);
+                if (!found.found()) return;
+                const double shift = piece.is_copy ? piece.place.translation[axis] : 0;
+                (sign < 0 ? lo : hi)[axis] = shift - sign * found.proved * scale;
+            }
+        }
+        boxes[row] = {lo, hi};
+    });
+    for (const Box& box : boxes) {
+        if (!box.empty()) all.grow(box);
+    }
+    return all;
 }
 
 std::vector<Box> RayScene::cover() const {

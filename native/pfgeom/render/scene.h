@@ -7,11 +7,20 @@
 #include "pfgeom/render/box_tree.h"
 #include "pfgeom/render/ray_target.h"
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace pfgeom {
+
+/// Of a surface, to some other point.
+struct NearestPoint {
+    Vec3 point;
+    double distance = std::numeric_limits<double>::infinity();  ///< infinity: there is no surface
+    double proved = std::numeric_limits<double>::infinity();    ///< no surface is nearer
+    std::int32_t object = -1;                                   ///< row of Model::objects
+};
 
 /// Immutable, safe to use from many threads; made once, kept for many rays. The surface is that of all
 /// objects and their copies, whatever lies within another one included.
@@ -22,6 +31,11 @@ class RayScene {
     explicit RayScene(const TriangleMesh& mesh, const Task& task = {});
 
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span = {}) const;
+    /// The point of the surface nearest to p, and a proof that none is nearer than `accuracy` less (or as far
+    /// as a budget of work goes). Curved faces of mesh parts count as triangles within 1e-5 of the diagonal.
+    NearestPoint nearest(const Vec3& p, double accuracy, ExtremeSearch& search) const;
+    /// The smallest box that holds the surface, but for `accuracy`; empty if there is none.
+    Box bounds(double accuracy, const Task& task = {}) const;
     /// Boxes that hold the surface together, in some detail; none if there is no surface.
     std::vector<Box> cover() const;
 
