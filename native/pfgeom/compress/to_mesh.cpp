@@ -1,10 +1,7 @@
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/limits.h"
 #include "pfgeom/compress/compress.h"
-#include "pfgeom/compress/mesh_code.h"
-#include "pfgeom/eval/mesh_part.h"
-#include "pfgeom/eval/solid_field.h"
-#include "pfgeom/polygonize/polygonize.h"
+#include "pfgeom/compress/object_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +10,6 @@
 namespace pfgeom {
 namespace {
 
-constexpr int kLeastDepth = 3, kMostDepth = 10;
 constexpr int kLeastResolution = 8, kMostResolution = 4096;
 
 void check_options(const MeshOptions& options) {
@@ -29,106 +25,49 @@ void check_options(const MeshOptions& options) {
     }
 }
 
-// Depth at which cells of a cube of half edge `half` are no larger than `size`.
-int depth_for(double half, double size) {
-    int depth = kLeastDepth;
-    while (depth < 12 && std::ldexp(2 * half, -depth) > size) ++depth;
-    return depth;
-}
-
-double largest_scale(const Object& object) {
-    double largest = 0;
-    for (const Similarity& s : copies_of(object)) largest = std::max(largest, s.scale);
-    return largest;
-}
-
-double largest_half(const Model& model) {
-    double largest = 0;
-    for (const Object& o : model.objects) largest = std::max(largest, o.frame.half() * largest_scale(o));
-    return largest;
-}
-
-// What the pattern may miss so that none of its copies misses more.
-double chord_for(const Model& model, const Object& object, const MeshOptions& options) {
-    return options.tolerance ? *options.tolerance / largest_scale(object) : chord_of(model, object);
-}
-
-// The longest cell or edge of the pattern.
-double cell_for(const Model& model, const Object& object, const MeshOptions& options) {
-    return 2 * largest_half(model) / *options.resolution / largest_scale(object);
-}
-
-PolygonizeOptions polygonize_options(const Model& model, const Object& object, const MeshOptions& options) {
-    PolygonizeOptions result;
-    result.min_depth = kLeastDepth;
-    result.max_depth = kMostDepth;
-    const double half = object.frame.half();
-    if (options.resolution) {
-        result.min_depth = result.max_depth = depth_for(half, cell_for(model, object, options));
-    } else {
-        result.tolerance = chord_for(model, object, options) / half;
-    }
-    return result;
-}
-
-Fineness fineness_of(const Model& model, const Object& object, const MeshOptions& options) {
-    if (!options.resolution) return {.chord = chord_for(model, object, options)};
-    return {.chord = chord_of(model, object), .length = cell_for(model, object, options)};
-}
-
-void turn_faces(TriangleMesh& mesh) {
-    for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
-}
-
-TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const PolygonizeOptions& options,
-                           const Task& task) {
-    const Function& surface = model.functions[static_cast<std::size_t>(sheet.surface)];
-    const Function& trim = model.functions[static_cast<std::size_t>(sheet.trim)];
-    if (!surface.is_quadric() || !trim.is_quadric())
-        throw InvalidInput("sheets of functions with perturbations cannot be polygonized yet");
-    return polygonize_sheet(surface.base, trim.base, options, task);
-}
-
-// A complement fills the cube; its surface is that of its operand, with the faces turned.
-TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
-                           const Task& task) {
-    if (std::holds_alternative<MeshPart>(object.shape))
-        return mesh_of(object, fineness_of(model, object, options));
-    const PolygonizeOptions how = polygonize_options(model, object, options);
-    TriangleMesh mesh;
-    bool complement = false;
-    if (const auto* solid = std::get_if<Solid>(&object.shape)) {
-        complement = !solid->nodes.empty() && solid->nodes.back().kind == SetNode::Kind::complement;
-        Solid shape = *solid;
-        if (complement) shape.nodes.pop_back();
-        mesh = polygonize(SolidField(model, shape), how, task);
-    } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
-        complement = tree->complement;
-        mesh = polygonize(*tree, how, task);
-    } else {
-        mesh = mesh_of_sheet(model, std::get<Sheet>(object.shape), how, task);
-    }
-    for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
-    if (complement || object.cavity_of >= 0) turn_faces(mesh);
-    return mesh;
-}
-
-TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
-    TriangleMesh copy = mesh;
-    for (Vec3& v : copy.vertices) v = s.apply(v);
-    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) turn_faces(copy);
-    return copy;
-}
-
 // A few bytes can name many copies of a large mesh.
-void append_copies(const TriangleMesh& mesh, const Object& object, TriangleMesh& all, const Task& task) {
-    const std::vector<Similarity> copies = copies_of(object);
-    if (mesh.faces.size() > (Limits{}.polygon_faces - all.faces.size()) / copies.size())
+void append_copy(const TriangleMesh& mesh, const Similarity& place, TriangleMesh& all, const Task& task) {
+    if (mesh.faces.size() > Limits{}.polygon_faces - all.faces.size())
         throw LimitExceeded("the copies of the objects have more than 20 million faces");
-    for (const Similarity& s : copies) {
-        task.check();
-        append(copy_of(mesh, s), all);
+    task.check();
+    append(copy_of(mesh, place), all);
+}
+
+// Every copy with the paint that is its own or that all share.
+void append_painted(const TriangleMesh& mesh, const Object& object, const std::vector<Paint>& paints,
+                    double snap, PaintedMesh& all, const Task& task) {
+    TriangleMesh cut;
+    std::vector<std::int32_t> materials;
+    const std::vector<Similarity> copies = copies_of(object);
+    for (std::size_t c = 0; c < copies.size(); ++c) {
+        if (c < paints.size()) {
+            cut = mesh;
+            materials = paint_mesh(cut, object, paints[c], snap, quiet(task, task.threads));
+        }
+        append_copy(cut, copies[c], all.mesh, task);
+        all.materials.of_face.insert(all.materials.of_face.end(), materials.begin(), materials.end());
     }
+}
+
+PaintedMesh whole_mesh(const Model& model, const MeshOptions& options, bool painted, const Task& task) {
+    check_options(options);
+    PaintedMesh all;
+    if (painted) all.materials.names = model.materials.names;
+    const auto count = static_cast<double>(model.objects.size());
+    for (std::size_t i = 0; i < model.objects.size(); ++i) {
+        const auto at = static_cast<double>(i);
+        const Object& object = model.objects[i];
+        const Task part = part_of(task, at / count, (at + 1) / count);
+        part.report(0, "polygonize");
+        const TriangleMesh mesh = mesh_in_place(model, object, options, part);
+        if (painted) {
+            append_painted(mesh, object, model.materials.objects[i], border_snap(model), all, part);
+        } else {
+            for (const Similarity& place : copies_of(object)) append_copy(mesh, place, all.mesh, part);
+        }
+    }
+    task.report(1, "polygonize");
+    return all;
 }
 
 // Different sets of coefficients.
@@ -142,18 +81,11 @@ std::int64_t distinct_quadrics(const SetTree& tree) {
 }  // namespace
 
 TriangleMesh to_mesh(const Model& model, const MeshOptions& options, const Task& task) {
-    check_options(options);
-    TriangleMesh all;
-    const auto count = static_cast<double>(model.objects.size());
-    for (std::size_t i = 0; i < model.objects.size(); ++i) {
-        const auto at = static_cast<double>(i);
-        const Object& object = model.objects[i];
-        const Task part = part_of(task, at / count, (at + 1) / count);
-        part.report(0, "polygonize");
-        append_copies(mesh_in_place(model, object, options, part), object, all, part);
-    }
-    task.report(1, "polygonize");
-    return all;
+    return whole_mesh(model, options, false, task).mesh;
+}
+
+PaintedMesh to_painted_mesh(const Model& model, const MeshOptions& options, const Task& task) {
+    return whole_mesh(model, options, !model.materials.empty(), task);
 }
 
 FunctionCount count_functions(const Model& model) {
