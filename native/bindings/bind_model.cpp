@@ -42,7 +42,7 @@ py::tuple mesh_of_model(const ModelPointer& handle, std::optional<double> tolera
                         const CancelToken* cancel) {
     Job job(threads, std::move(progress), cancel);
     return arrays_from(job.run([=](const Task& task) {
-        return to_mesh(handle->model(), MeshOptions{tolerance, resolution}, task);
+        return to_painted_mesh(handle->model(), MeshOptions{tolerance, resolution}, task);
     }));
 }
 
@@ -125,6 +125,7 @@ void bind_model(py::module_& m) {
         .def("contains", &contains_at, py::arg("points").noconvert(), py::arg("threads"))
         .def("bounds", &bounds_of)
         .def("names", &names_of)
+        .def("material_names", [](const ModelHandle& h) { return h.model().materials.names; })
         .def("world_transform", [](const ModelHandle& h) { return h.model().world_transform; })
         .def("placed", &placed, py::arg("names"), py::arg("world_transform"))
         .def("functions", [](const ModelHandle& h) { return describe_functions(h.model()); })
