@@ -70,12 +70,13 @@ void PaintFit::add_samples(const PaintedCopy& copy, std::size_t share, Samples& 
     for (const BorderEdge& e : copy.surface->borders()) {
         const Vec3 along = e.to - e.from, across = normalized(cross(along, e.normal));
         const double size = norm(along);
-        for (; left < size; left += spacing) {
+        while (left < size) {
             const Vec3 middle = e.from + along * (left / size);
             for (const double offset : kOffsets) {
                 points.push_back(middle + across * (offset * tolerance_));
                 points.push_back(middle - across * (offset * tolerance_));
             }
+            left += spacing;
         }
         left -= size;
     }
