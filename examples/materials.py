@@ -19,7 +19,7 @@ import parts
 import pfgeom
 from numpy.typing import NDArray
 
-Labels = NDArray[np.int32]
+Labels = NDArray[np.int64]
 
 TOLERANCE = 1e-3  # of the diagonal
 POINTS = 100_000
@@ -83,6 +83,7 @@ def points_of(mesh: pfgeom.Mesh) -> tuple[NDArray[np.float64], NDArray[np.int64]
 
 def judge(mesh: pfgeom.Mesh, back: pfgeom.Mesh, length: float) -> tuple[float, float]:
     """Right and stray. Where islands cross, a point may be of another one than the nearest: that is right, too."""
+    assert mesh.materials is not None and back.materials is not None
     points, face = points_of(back)
     shown, island = back.materials[face], islands(mesh)
     nearest = pfgeom.closest_points(points, mesh)
