@@ -14,7 +14,7 @@
 namespace pfgeom {
 namespace {
 
-// Of the tolerance; an eighth leaves 3 % fewer faces of painted meshes, a 32nd makes 4 % more.
+// Of the tolerance: far below what a border may be off (paint_fit.cpp, kNear).
 constexpr double kSnapShare = 1.0 / 16;
 // Of the diagonal, where no tolerance was named.
 constexpr double kSnapOfDiagonal = 1e-4;
