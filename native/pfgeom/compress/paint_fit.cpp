@@ -22,8 +22,8 @@ constexpr double kOffsets[] = {0.25, 0.5, 0.7, 1, 1.6, 2.6, 4.5};
 constexpr double kSpacing = 0.75;  // along it
 constexpr std::size_t kMostBand = 150'000;
 constexpr std::size_t kEverywhere = 20'000, kMeasured = 60'000;
-// Weights of a question against what it settles (MaterialFit::plane_weight): each gives the fewest bytes of
-// some shape.
+// Weights of a question against what it settles (MaterialFit::plane_weight), as many as the effort says; the
+// fewest bytes win.
 constexpr double kWeights[] = {8, 40, 2};
 constexpr int kRounds = 4;
 constexpr std::size_t kChunk = 256;
