@@ -32,9 +32,26 @@ TriangleMesh mesh_from(const Points& vertices, const Indices& faces) {
     return mesh;
 }
 
-py::tuple arrays_from(TriangleMesh mesh) {
-    return py::make_tuple(array_from<double>(std::move(mesh.vertices)),
-                          array_from<std::int32_t>(std::move(mesh.faces)));
+FaceMaterials materials_from(const std::optional<Indices>& of_face, std::vector<std::string> names,
+                             std::size_t faces) {
+    FaceMaterials materials;
+    if (of_face) {
+        const std::span<const std::int32_t> rows = span_of(*of_face);
+        materials.of_face.assign(rows.begin(), rows.end());
+    }
+    materials.names = std::move(names);
+    check_materials(materials, faces);
+    return materials;
+}
+
+py::tuple arrays_from(PaintedMesh painted) {
+    std::vector<std::int32_t>& of_face = painted.materials.of_face;
+    const auto count = static_cast<py::ssize_t>(of_face.size());
+    py::object materials = py::none();
+    if (count > 0) materials = array_of<std::int32_t>(std::move(of_face), {count});
+    return py::make_tuple(array_from<double>(std::move(painted.mesh.vertices)),
+                          array_from<std::int32_t>(std::move(painted.mesh.faces)), materials,
+                          painted.materials.names);
 }
 
 }  // namespace pfgeom::bindings

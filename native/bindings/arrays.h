@@ -1,14 +1,17 @@
 // numpy arrays <-> the library's vectors.
 #pragma once
 
-#include "pfgeom/mesh/triangle_mesh.h"
+#include "pfgeom/mesh/face_materials.h"
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -50,7 +53,11 @@ pybind11::array_t<Scalar> array_from(std::vector<Row> rows) {
     return array_of<Scalar>(std::move(rows), {count, 3});
 }
 
-/// (vertices (n,3) float64, faces (m,3) int32)
-pybind11::tuple arrays_from(TriangleMesh mesh);
+/// Materials of (m,) faces, or None: all alike. Throws InvalidInput as check_materials does.
+FaceMaterials materials_from(const std::optional<Indices>& of_face, std::vector<std::string> names,
+                             std::size_t faces);
+
+/// (vertices (n,3) float64, faces (m,3) int32, materials (m,) int32 or None, names)
+pybind11::tuple arrays_from(PaintedMesh mesh);
 
 }  // namespace pfgeom::bindings

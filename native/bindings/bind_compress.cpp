@@ -10,10 +10,13 @@ namespace py = pybind11;
 namespace pfgeom::bindings {
 namespace {
 
-py::tuple compress_arrays(const Points& vertices, const Indices& faces, double tolerance, bool relative,
-                          bool rms, std::uint8_t effort, int threads, py::object progress,
-                          const CancelToken* cancel) {
-    const auto mesh = std::make_shared<const TriangleMesh>(mesh_from(vertices, faces));
+py::tuple compress_arrays(const Points& vertices, const Indices& faces,
+                          const std::optional<Indices>& materials, std::vector<std::string> names,
+                          double tolerance, bool relative, bool rms, std::uint8_t effort, int threads,
+                          py::object progress, const CancelToken* cancel) {
+    TriangleMesh bare = mesh_from(vertices, faces);
+    FaceMaterials painted = materials_from(materials, std::move(names), bare.faces.size());
+    const auto mesh = std::make_shared<const PaintedMesh>(PaintedMesh{std::move(bare), std::move(painted)});
     const CompressOptions options{tolerance, relative, rms ? Metric::rms : Metric::max,
                                   static_cast<Effort>(effort)};
     Job job(threads, std::move(progress), cancel);
@@ -27,8 +30,9 @@ py::tuple compress_arrays(const Points& vertices, const Indices& faces, double t
 
 void bind_compress(py::module_& m) {
     m.def("compress", &compress_arrays, py::arg("vertices").noconvert(), py::arg("faces").noconvert(),
-          py::arg("tolerance"), py::arg("relative"), py::arg("rms"), py::arg("effort"), py::arg("threads"),
-          py::arg("progress"), py::arg("cancel"), "(Model, what was measured on the way)");
+          py::arg("materials").noconvert(), py::arg("names"), py::arg("tolerance"), py::arg("relative"),
+          py::arg("rms"), py::arg("effort"), py::arg("threads"), py::arg("progress"), py::arg("cancel"),
+          "(Model, what was measured on the way)");
 }
 
 }  // namespace pfgeom::bindings

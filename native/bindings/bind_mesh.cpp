@@ -12,7 +12,9 @@ namespace pfgeom::bindings {
 namespace {
 
 py::tuple read_arrays(const std::string& path) {
-    return arrays_from(Job().run([=](const Task&) { return read_mesh(path); }));
+    LoadedMesh loaded = Job().run([=](const Task&) { return read_mesh_file(path); });
+    const py::tuple lost = py::tuple(py::cast(loaded.lost));
+    return arrays_from({std::move(loaded.mesh), std::move(loaded.materials)}) + py::make_tuple(lost);
 }
 
 void write_bytes(const std::string& path, const py::bytes& data) {
@@ -68,12 +70,15 @@ void bind_mesh(py::module_& m) {
     m.def("read_mesh", &read_arrays, py::arg("path"));
     m.def(
         "write_mesh",
-        [](const std::string& path, const Points& vertices, const Indices& faces) {
+        [](const std::string& path, const Points& vertices, const Indices& faces,
+           const std::optional<Indices>& materials, std::vector<std::string> names) {
             const TriangleMesh mesh = mesh_from(vertices, faces);
+            const FaceMaterials painted = materials_from(materials, std::move(names), mesh.faces.size());
             const py::gil_scoped_release unlocked;
-            write_mesh(path, mesh);
+            write_mesh(path, mesh, painted);
         },
-        py::arg("path"), py::arg("vertices").noconvert(), py::arg("faces").noconvert());
+        py::arg("path"), py::arg("vertices").noconvert(), py::arg("faces").noconvert(),
+        py::arg("materials").noconvert(), py::arg("names"));
     m.def("triangulate", &triangulate_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
           py::arg("lengths").noconvert());
     m.def("read_file", &read_bytes, py::arg("path"), "Whole file, bounded.");

@@ -44,7 +44,7 @@ py::tuple mesh_of_model(const ModelPointer& handle, std::optional<double> tolera
                         const CancelToken* cancel) {
     Job job(threads, std::move(progress), cancel);
     return arrays_from(job.run([=](const Task& task) {
-        return to_mesh(handle->model(), MeshOptions{tolerance, resolution}, task);
+        return to_painted_mesh(handle->model(), MeshOptions{tolerance, resolution}, task);
     }));
 }
 
@@ -171,6 +171,7 @@ void bind_model(py::module_& m) {
         .def("size", &size_of, py::arg("tolerance"), py::arg("threads"), py::arg("progress"),
              py::arg("cancel"))
         .def("names", &names_of)
+        .def("material_names", [](const ModelHandle& h) { return h.model().materials.names; })
         .def("world_transform", [](const ModelHandle& h) { return h.model().world_transform; })
         .def("placed", &placed, py::arg("names"), py::arg("world_transform"))
         .def("functions", [](const ModelHandle& h) { return describe_functions(h.model()); })

@@ -126,6 +126,8 @@ py::dict describe_report(const CompressReport& report) {
     return py::dict("vertices"_a = report.input_vertices, "faces"_a = report.input_faces,
                     "raw_bytes"_a = report.raw_bytes, "mesh_faces"_a = report.mesh_faces,
                     "deviation"_a = describe_deviation(report.deviation), "islands"_a = islands,
+                    "materials"_a = py::dict("bytes"_a = report.paint.bytes, "right"_a = report.paint.right,
+                                             "stray"_a = report.paint.stray),
                     "defects"_a = describe_defects(report.defects));
 }
 

@@ -44,6 +44,7 @@ def _add_compress(commands: Any) -> None:
         "--effort", choices=("fast", "normal", "best"), default="normal",
         help="how long to look for fewer bytes within the same tolerance (default normal); changes set trees only",
     )  # fmt: skip
+    command.add_argument("--no-materials", dest="materials", action="store_false", help="leave materials out")
     _add_common(command)
 
 

@@ -21,7 +21,7 @@ from .arguments import build_parser
 from .deviation import Deviation, compare
 from .encoder import compress
 from .errors import PfgeomError
-from .meshes import Mesh, read_mesh, write_mesh
+from .meshes import MOST_MATERIALS, Mesh, read_mesh, write_mesh
 from .model import Model, load
 from .pictures import Picture
 from .progress import progress_bar
@@ -67,6 +67,10 @@ def _fail(sentence: str) -> int:
 def run_compress(args: argparse.Namespace) -> None:
     _check_target(args.output)
     mesh = read_mesh(args.input)
+    if mesh.material_names and (not args.materials or len(mesh.material_names) > MOST_MATERIALS):
+        mesh = Mesh(*mesh, not_kept=("materials", *mesh.not_kept))
+    if mesh.not_kept:
+        print(f"pfgeom: note: not kept: {', '.join(mesh.not_kept)}", file=sys.stderr)
     start = time.perf_counter()
     with progress_bar(quiet=args.quiet) as progress:
         model = compress(
@@ -80,7 +84,7 @@ def run_compress(args: argparse.Namespace) -> None:
         )
     seconds = time.perf_counter() - start
     model.save(args.output)
-    _print(args, compress_figures(args, model, seconds), tables.compressed)
+    _print(args, compress_figures(args, model, mesh.not_kept, seconds), tables.compressed)
 
 
 def run_decompress(args: argparse.Namespace) -> None:
@@ -151,7 +155,7 @@ def run_report(args: argparse.Namespace) -> None:
 # --- figures: what --json prints and the tables show -----------------------------------------------------------
 
 
-def compress_figures(args: argparse.Namespace, model: Model, seconds: float) -> dict[str, Any]:
+def compress_figures(args: argparse.Namespace, model: Model, not_kept: Sequence[str], seconds: float) -> dict[str, Any]:
     report = model.report or {}
     return {
         "input": args.input,
@@ -167,6 +171,8 @@ def compress_figures(args: argparse.Namespace, model: Model, seconds: float) -> 
         "islands": len(report["islands"]),
         "candidates": dict(Counter(island["candidate"] for island in report["islands"])),
         "repeated": sum(island["copies"] > 1 for island in report["islands"]),
+        "materials": {"count": len(model.material_names), **report["materials"]},
+        "not_kept": list(not_kept),
         "defects": report["defects"],
         "seconds": seconds,
     }
@@ -180,6 +186,7 @@ def decompress_figures(args: argparse.Namespace, model: Model, mesh: Mesh, secon
         **_promise_figures(model),
         "vertices": len(mesh.vertices),
         "triangles": len(mesh.faces),
+        "materials": list(mesh.material_names),
         "default_mesh": args.tolerance is None and args.resolution is None,
         "seconds": seconds,
     }

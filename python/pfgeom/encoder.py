@@ -21,6 +21,8 @@ def compress(
     vertices: Any,
     faces: Any = None,
     *,
+    materials: Any = None,
+    material_names: Any = None,
     tolerance: float = 1e-3,
     relative: bool = True,
     metric: Literal["max", "rms"] = "max",
@@ -43,6 +45,11 @@ def compress(
         ``.regular_faces`` (pyvista).
     faces
         (m, 3) triangles, (m, k) polygons, or a list of polygons of mixed lengths; any integer type.
+    materials
+        (m,) integers, the material of each face, or None: those of a `Mesh`, else none. They are kept as regions of the
+        functions' surface, whose borders are within the tolerance.
+    material_names
+        As many names as there are materials; or nothing.
     tolerance
         Allowed deviation between the input's surface and the default mesh, both ways.
     relative
@@ -94,9 +101,18 @@ def compress(
     if effort not in EFFORTS:
         raise ValueError(f"effort must be 'fast', 'normal' or 'best', not {effort!r}")
     check_task(threads, progress, cancel)
-    mesh = as_mesh(vertices, faces)
+    mesh = as_mesh(vertices, faces, materials, material_names)
     core, report = _core.compress(
-        *mesh, tolerance, relative, metric == "rms", EFFORTS.index(effort), threads, progress, cancel
+        *mesh,
+        mesh.materials,
+        mesh.material_names,
+        tolerance,
+        relative,
+        metric == "rms",
+        EFFORTS.index(effort),
+        threads,
+        progress,
+        cancel,
     )
     model = Model(core, report)
     _log_outcome(model, report)

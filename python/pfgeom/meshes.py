@@ -12,11 +12,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 
+#: Materials that a model can have.
+MOST_MATERIALS = 4096
+
 _MAX_ROWS = 2**31 - 1  # faces go to the core as 32-bit rows
 
 
-class Mesh(NamedTuple):
-    """A triangle mesh as two arrays.
+class _Arrays(NamedTuple):
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+
+
+class Mesh(_Arrays):
+    """A triangle mesh as two arrays: ``vertices, faces = mesh``; its materials, if it has any, stand beside them.
 
     Attributes
     ----------
@@ -24,13 +32,32 @@ class Mesh(NamedTuple):
         Points, in the mesh's own units.
     faces : (m, 3) int32
         Rows of ``vertices``, counter-clockwise seen from outside.
+    materials : (m,) int32 or None
+        The material of each face, a row of ``material_names``; None: it has none, or all faces have the first.
+    material_names : tuple of str
+        Of all materials, used or not; a name may be empty.
+    not_kept : tuple of str
+        Of a mesh from a file, what else the file says of the surface, such as ``"normals"``.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
+    materials: NDArray[np.int32] | None = None
+    material_names: tuple[str, ...] = ()
+    not_kept: tuple[str, ...] = ()
+
+    def __new__(
+        cls,
+        vertices: NDArray[np.float64],
+        faces: NDArray[np.int32],
+        materials: NDArray[np.int32] | None = None,
+        material_names: Iterable[str] = (),
+        not_kept: Iterable[str] = (),
+    ) -> Mesh:
+        mesh = super().__new__(cls, vertices, faces)
+        mesh.materials, mesh.material_names, mesh.not_kept = materials, tuple(material_names), tuple(not_kept)
+        return mesh
 
 
-def as_mesh(mesh_or_vertices: Any, faces: Any = None) -> Mesh:
+def as_mesh(mesh_or_vertices: Any, faces: Any = None, materials: Any = None, material_names: Any = None) -> Mesh:
     """Make a checked triangle mesh of whatever describes one.
 
     Parameters
@@ -42,6 +69,8 @@ def as_mesh(mesh_or_vertices: Any, faces: Any = None) -> Mesh:
     faces
         (m, 3) triangles, (m, k) polygons, or a list of polygons of mixed lengths, of any integer type. Polygons
         are cut into triangles as those of mesh files are.
+    materials, material_names
+        As for `pfgeom.compress`; a `Mesh` has its own.
 
     Raises
     ------
@@ -50,14 +79,20 @@ def as_mesh(mesh_or_vertices: Any, faces: Any = None) -> Mesh:
     TypeError
         Not numbers, or an object of no known kind.
     """
+    if isinstance(mesh_or_vertices, Mesh) and materials is None and material_names is None:
+        materials, material_names = mesh_or_vertices.materials, mesh_or_vertices.material_names
     if faces is None:
         mesh_or_vertices, faces = _parts(mesh_or_vertices)
     vertices = _vertices(mesh_or_vertices)
-    return Mesh(vertices, _triangles(faces, vertices))
+    triangles, triangles_of = _triangles(faces, vertices)
+    rows, names = _materials(materials, material_names, triangles_of)
+    return Mesh(vertices, triangles, rows, names)
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """Read an OBJ, PLY, STL or OFF file, ascii or binary; polygons and strips become triangles.
+
+    Materials are those of ``usemtl`` in OBJ files, and of the faces' property ``material_index`` in PLY files.
 
     Raises
     ------
@@ -74,6 +109,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
 def write_mesh(path: str | os.PathLike[str], mesh_or_vertices: Any, faces: Any = None) -> None:
     """Write an OBJ, PLY, STL or OFF file; it is whole or absent, whatever happens.
 
+    The materials of a `Mesh` go into OBJ (``usemtl``) and PLY files (``material_index``, without names).
+
     Parameters
     ----------
     path
@@ -89,7 +126,7 @@ def write_mesh(path: str | os.PathLike[str], mesh_or_vertices: Any, faces: Any =
         The extension is unknown, or the mesh is not valid.
     """
     mesh = as_mesh(mesh_or_vertices, faces)
-    _core.write_mesh(native_path(path), mesh.vertices, mesh.faces)
+    _core.write_mesh(native_path(path), mesh.vertices, mesh.faces, mesh.materials, mesh.material_names)
 
 
 def native_path(path: str | os.PathLike[str]) -> bytes:
@@ -154,8 +191,8 @@ def _vertices(values: ArrayLike) -> NDArray[np.float64]:
     return points
 
 
-def _triangles(faces: Any, vertices: NDArray[np.float64]) -> NDArray[np.int32]:
-    """Checked (m, 3) int32, C-contiguous."""
+def _triangles(faces: Any, vertices: NDArray[np.float64]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Checked (m, 3) int32, C-contiguous; and how many triangles each polygon became."""
     polygons = _regular(faces)
     if polygons is not None:
         corners, lengths = polygons.reshape(-1), np.full(len(polygons), polygons.shape[1], np.int32)
@@ -164,7 +201,29 @@ def _triangles(faces: Any, vertices: NDArray[np.float64]) -> NDArray[np.int32]:
     _check_indices(corners, lengths, len(vertices))
     corners = np.ascontiguousarray(corners, dtype=np.int32)
     triangles_only = bool((lengths == 3).all())
-    return corners.reshape(-1, 3) if triangles_only else _core.triangulate(vertices, corners, lengths)
+    triangles = corners.reshape(-1, 3) if triangles_only else _core.triangulate(vertices, corners, lengths)
+    return triangles, lengths - 2
+
+
+def _materials(
+    materials: Any, names: Any, triangles_of: NDArray[np.int32]
+) -> tuple[NDArray[np.int32] | None, tuple[str, ...]]:
+    """Checked: a row of the names for each triangle, or None; and the names."""
+    if isinstance(names, (str, bytes)):
+        raise TypeError("material_names must be a sequence of names, not one name")
+    if materials is None:
+        return None, tuple(map(str, names or ()))
+    rows = np.asarray(materials)
+    if rows.dtype.kind not in "iu":
+        raise TypeError(f"materials must be integers, not {rows.dtype}")
+    if rows.shape != (len(triangles_of),):
+        raise ValueError(f"materials must have shape ({len(triangles_of)},), one for each face, not {rows.shape}")
+    given = tuple(map(str, names)) if names else ("",) * (int(rows.max()) + 1)
+    bad = (rows < 0) | (rows >= len(given))
+    if bad.any():
+        row = int(np.argmax(bad))
+        raise ValueError(f"materials: row {row} is {rows[row]}, but there are {len(given)} materials")
+    return np.repeat(rows.astype(np.int32), triangles_of), given
 
 
 def _regular(faces: Any) -> NDArray[Any] | None:

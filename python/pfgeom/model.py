@@ -20,6 +20,9 @@ from .normals import corner_normals
 from .pictures import Picture, RayHits, as_vector, slope_of_view
 from .tasks import CancelToken, Progress, check_task
 
+#: What meshes have and models do not hold.
+NOT_KEPT = ("texture coordinates", "colours", "normals", "vertex weights", "shape keys")
+
 
 class FunctionCount(NamedTuple):
     """How many functions a model consists of: distinct sets of coefficients.
@@ -140,7 +143,8 @@ class Model:
         Returns
         -------
         Mesh
-            ``(vertices, faces)``: (n, 3) float64 and (m, 3) int32.
+            ``(vertices, faces)``: (n, 3) float64 and (m, 3) int32; with `Mesh.materials` if the model has any, where
+            faces are cut along the borders.
 
         Raises
         ------
@@ -440,6 +444,11 @@ class Model:
         values = self._core.world_transform()
         return np.array(values).reshape(4, 4) if values else None
 
+    @property
+    def material_names(self) -> tuple[str, ...]:
+        """Names of the materials that `Mesh.materials` of `to_mesh` counts; empty: the model has none."""
+        return tuple(self._core.material_names())
+
     def placed(self, world_transform: ArrayLike | None = None, names: Iterable[str] = ()) -> Model:
         """The same functions with this place in the world and these names; those that it had are dropped.
 
@@ -548,6 +557,8 @@ class Model:
             "functions": self.functions._asdict(),
             **self._promise,
             "bounds": self.bounds.tolist(),
+            "materials": list(self.material_names),
+            "not_kept": list(NOT_KEPT),
             "objects": deepcopy(self.objects),
             "function_list": deepcopy(self.function_list),
             "sizes": self._core.sizes(),

@@ -15,6 +15,9 @@ Row: TypeAlias = tuple[str, str, str]
 Table: TypeAlias = Callable[[dict[str, Any]], list[Row]]
 
 
+_NAMED = 12  # materials whose names a table shows
+
+
 def align(rows: list[Row]) -> str:
     """Labels to the left, figures to the right, remarks behind."""
     label = max(len(row[0]) for row in rows)
@@ -38,6 +41,7 @@ def compressed(f: dict[str, Any]) -> list[Row]:
         _functions(f),
         ("file bytes", f"{f['file_bytes']:,}", f["output"]),
         ("ratio", f"{f['ratio']:,.1f}", ": 1"),
+        *([_paint(f["materials"])] if f["materials"]["count"] else []),
         *_promise(f),
         ("mesh triangles", f"{f['mesh_triangles']:,}", "by default"),
         ("seconds", f"{f['seconds']:.2f}", ""),
@@ -51,6 +55,7 @@ def decompressed(f: dict[str, Any]) -> list[Row]:
         _functions(f),
         ("triangles", f"{f['triangles']:,}", about),
         ("vertices", f"{f['vertices']:,}", f["output"]),
+        *_materials(f),
         *_promise(f),
         ("seconds", f"{f['seconds']:.2f}", ""),
     ]
@@ -70,11 +75,13 @@ def info(f: dict[str, Any]) -> list[Row]:
         *_copies(f),
         *_quadrics(f),
         *_kinds(f),
+        *_materials(f),
         *_promise(f),
         ("diagonal", f"{f['diagonal']:.6g}", "of the input's bounding box"),
         ("bounds", "", f"{_point(low)} to {_point(high)}"),
         ("head bytes", f"{f['sizes']['head']:,}", "neither functions nor mesh parts"),
         *((f"level {depth}", f"{size:,.0f}", "bytes") for depth, size in enumerate(f["sizes"]["by_level"]) if size),
+        ("not kept", "", f"no model holds {', '.join(f['not_kept'])}"),
     ]
 
 
@@ -171,6 +178,19 @@ def _kinds(f: dict[str, Any]) -> list[Row]:
         names = ", ".join(f"{kind}: {count:,}" for kind, count in of_kind.most_common())
         rows += [(label, f"{of_kind.total():,}", names)] if of_kind else []
     return rows
+
+
+def _paint(m: dict[str, Any]) -> Row:
+    about = f"in {m['bytes']:,} bytes; {100 * m['right']:.2f} % of the area has the right one"
+    stray = f", {100 * m['stray']:.3f} % is farther than the tolerance from it" if m["stray"] else ""
+    return ("materials", f"{m['count']:,}", about + stray)
+
+
+def _materials(f: dict[str, Any]) -> list[Row]:
+    names = [name or f"material_{row}" for row, name in enumerate(f["materials"])]
+    more = len(names) - _NAMED
+    listed = ", ".join(names[:_NAMED]) + (f" and {more:,} more" if more > 0 else "")
+    return [("materials", f"{len(names):,}", listed)] if names else []
 
 
 def _promise(f: dict[str, Any]) -> list[Row]:

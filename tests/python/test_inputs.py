@@ -193,11 +193,11 @@ def test_the_core_checks_for_itself():
     core = pytest.importorskip("pfgeom._core")
     faces = FACES.astype(np.int32)
     with pytest.raises(ValueError, match="shape"):
-        core.compress(VERTICES[:, :2].copy(), faces, 1e-3, True, False, 1, 0, None, None)
+        core.compress(VERTICES[:, :2].copy(), faces, None, (), 1e-3, True, False, 1, 0, None, None)
     with pytest.raises(ValueError):
-        core.compress(VERTICES, faces + 100, 1e-3, True, False, 1, 0, None, None)
+        core.compress(VERTICES, faces + 100, None, (), 1e-3, True, False, 1, 0, None, None)
     with pytest.raises(TypeError):
-        core.compress(VERTICES, FACES.astype(np.int64), 1e-3, True, False, 1, 0, None, None)
+        core.compress(VERTICES, FACES.astype(np.int64), None, (), 1e-3, True, False, 1, 0, None, None)
     with pytest.raises(ValueError):
         core.triangulate(VERTICES, np.array([0, 1, 9], np.int32), np.array([3], np.int32))
     with pytest.raises(ValueError):

@@ -32,6 +32,7 @@ class Surface:
     faces: NDArray[np.int32]  # (m, 3)
     smooth: NDArray[np.bool_]  # (m,)
     materials: NDArray[np.int32]  # (m,)
+    names: tuple[str, ...] = ()  # of the material slots
 
     @property
     def raw_bytes(self) -> int:
@@ -76,9 +77,12 @@ class Compressed:
 
 def compress(source: Surface, settings: Settings, detail: Detail | None, progress: Progress, cancel: Any) -> Compressed:
     """Functions for a surface, and the mesh to show, if one is to be shown."""
+    names = source.names + ("",) * (int(source.materials.max(initial=0)) + 1 - len(source.names))
     model = pfgeom().compress(
         source.vertices,
         source.faces,
+        materials=source.materials,
+        material_names=names,
         tolerance=settings.tolerance.value,
         relative=settings.tolerance.relative,
         metric=settings.metric,
@@ -91,16 +95,19 @@ def compress(source: Surface, settings: Settings, detail: Detail | None, progres
 
 
 def rebuild(model: Any, detail: Detail, labels: Surface | None, progress: Progress, cancel: Any) -> Rebuilt:
-    """A mesh of a model; the nearest face of `labels` says how each face is shaded and which material it has."""
+    """A mesh of a model with its materials; the nearest face of `labels` says how each face is shaded, and which
+    material it has if the functions do not know."""
     mesh = model.to_mesh(detail.tolerance, detail.cells, progress=_part(progress, 0.0, 0.6), cancel=cancel)
     mesh = _without_slivers(mesh)
     progress(0.6, "shading")
     smooth, materials = _labels(mesh, labels, cancel)
+    if mesh.materials is not None:
+        materials = mesh.materials
     progress(0.8, "shading")
     normals = None
     if detail.normals and smooth.any():
         normals = model.corner_normals(mesh).reshape(-1, 3).astype(np.float32)
-    surface = Surface(mesh.vertices.astype(np.float32), mesh.faces, smooth, materials)
+    surface = Surface(mesh.vertices.astype(np.float32), mesh.faces, smooth, materials, mesh.material_names)
     progress(1.0, "shading")
     return Rebuilt(surface, normals)
 
@@ -124,7 +131,10 @@ def _without_slivers(mesh: Any) -> Any:
     """Blender's mesh has no faces that use a vertex twice."""
     a, b, c = mesh.faces.T
     whole = (a != b) & (b != c) & (c != a)
-    return mesh if whole.all() else type(mesh)(mesh.vertices, np.ascontiguousarray(mesh.faces[whole]))
+    if whole.all():
+        return mesh
+    materials = None if mesh.materials is None else mesh.materials[whole]
+    return type(mesh)(mesh.vertices, np.ascontiguousarray(mesh.faces[whole]), materials, mesh.material_names)
 
 
 def _labels(mesh: Any, labels: Surface | None, cancel: Any) -> tuple[NDArray[np.bool_], NDArray[np.int32]]:

@@ -106,6 +106,7 @@ def _object_of(path: Path, loaded: Loaded, context: bpy.types.Context) -> bpy.ty
     name = loaded.names[0] if len(loaded.names) == 1 and loaded.names[0] else path.stem
     name = name.encode()[:_NAME].decode(errors="ignore")
     mesh = bpy.data.meshes.new(name)
+    write.add_materials(mesh, loaded.rebuilt.surface.names)
     write.fill(mesh, loaded.rebuilt)
     store.put(mesh, loaded.content, loaded.figures)
     mesh[store.SHOWS] = "REBUILT"

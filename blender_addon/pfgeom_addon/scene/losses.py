@@ -19,6 +19,8 @@ def losses_of(obj: bpy.types.Object) -> list[str]:
         "other attribute": _other_attributes(mesh),
     }
     lost = [f"{count} {word}{'s' if count > 1 else ''}" for word, count in counts.items() if count]
+    if mesh.has_custom_normals:
+        lost.append("custom normals")
     if len(obj.modifiers):
         lost.append("modifiers (they are applied)")
     return lost

@@ -33,7 +33,8 @@ def surface_of_mesh(mesh: bpy.types.Mesh) -> Surface:
     mesh.polygons.foreach_get("use_smooth", smooth)
     materials = np.empty(len(mesh.polygons), np.int32)
     mesh.polygons.foreach_get("material_index", materials)
-    return Surface(vertices.reshape(-1, 3), faces.reshape(-1, 3), smooth[polygon_of], materials[polygon_of])
+    names = tuple(material.name if material else "" for material in mesh.materials)
+    return Surface(vertices.reshape(-1, 3), faces.reshape(-1, 3), smooth[polygon_of], materials[polygon_of], names)
 
 
 def surface_of_hidden(obj: bpy.types.Object) -> Surface:
@@ -53,6 +54,7 @@ def fingerprint(surface: Surface) -> str:
     digest = hashlib.blake2b(digest_size=16)
     for array in (surface.vertices, surface.faces, surface.smooth, surface.materials):
         digest.update(array.tobytes())
+    digest.update("\0".join(surface.names).encode())
     return digest.hexdigest()
 
 

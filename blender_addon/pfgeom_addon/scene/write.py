@@ -32,6 +32,12 @@ def fill(mesh: bpy.types.Mesh, rebuilt: Rebuilt | None) -> None:
         compat.set_corner_normals(mesh, rebuilt.normals)
 
 
+def add_materials(mesh: bpy.types.Mesh, names: tuple[str, ...]) -> None:
+    """A slot for each name: the material that has it already, or a new one; none for no name."""
+    for name in names:
+        mesh.materials.append((bpy.data.materials.get(name) or bpy.data.materials.new(name)) if name else None)
+
+
 def new_mesh_like(mesh: bpy.types.Mesh, name: str) -> bpy.types.Mesh:
     """Empty, with the same material slots and custom properties."""
     made = bpy.data.meshes.new(name)

@@ -20,6 +20,8 @@ struct Limits {
     std::size_t polygon_faces = 20'000'000;
     /// Pictures: 32 bytes a pixel, 2 GiB at most.
     int picture_side = 8192;
+    /// Of a model's surface.
+    std::size_t materials = 4096;
     /// Names and other strings, UTF-8.
     std::size_t string_bytes = 255;
 };

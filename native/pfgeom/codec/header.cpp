@@ -19,7 +19,7 @@ constexpr bool kVerifyChecksums = true;
 
 bool is_known(std::uint64_t id) {
     return id >= static_cast<std::uint64_t>(SectionId::names) &&
-           id <= static_cast<std::uint64_t>(SectionId::face_groups);
+           id <= static_cast<std::uint64_t>(SectionId::materials);
 }
 
 // Line ends translated, the top bit stripped, or Latin-1 taken for text and written as UTF-8.

@@ -26,6 +26,7 @@ enum class SectionId : std::uint32_t {
     names = 1,
     world_transform = 2,
     face_groups = 3,
+    materials = 4,
 };
 
 struct Section {

@@ -1,8 +1,9 @@
 #include "pfgeom/codec/sections.h"
 
+#include "pfgeom/base/utf8.h"
 #include "pfgeom/codec/byte_reader.h"
 #include "pfgeom/codec/byte_writer.h"
-#include "pfgeom/function/check.h"
+#include "pfgeom/codec/material_codec.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,7 @@ std::vector<Section> write_sections(const Model& model) {
     if (!model.face_groups.empty()) {
         sections.push_back({SectionId::face_groups, false, write_face_groups(model.face_groups)});
     }
+    if (!model.materials.empty()) sections.push_back({SectionId::materials, false, write_materials(model)});
     return sections;
 }
 
@@ -110,6 +112,9 @@ FormatStatus read_sections(const Envelope& envelope, std::size_t memory, Model& 
                 break;
             case SectionId::face_groups:
                 status = read_face_groups(section.content, memory, model.face_groups);
+                break;
+            case SectionId::materials:
+                status = read_materials(section.content, memory, model);
                 break;
         }
         if (status != FormatStatus::ok) return status;

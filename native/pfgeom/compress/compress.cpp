@@ -5,6 +5,7 @@
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/fit_copies.h"
+#include "pfgeom/compress/paint_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,13 +28,15 @@ constexpr double kFitting = 0.8;  // of the progress
 
 class Compressor {
   public:
-    Compressor(const TriangleMesh& input, const CompressOptions& options, const Task& task)
-        : input_(input), options_(options), task_(task) {}
+    Compressor(const TriangleMesh& input, const FaceMaterials& materials, const CompressOptions& options,
+               const Task& task)
+        : input_(input), materials_(materials), options_(options), task_(task) {}
 
     Compressed run() {
         check_options();
         task_.report(0, "prepare");
         check_mesh(input_);
+        check_materials(materials_, input_.faces.size());
         const double size = diagonal(input_);
         tolerance_ = options_.tolerance * (options_.relative ? size : 1.0);
         prepared_ = prepare_mesh(input_, kSeamShare * tolerance_);
@@ -46,6 +49,7 @@ class Compressor {
         }
         if (result_.bytes.empty())
             throw LimitExceeded("the compressed model asks for more work than its size allows");
+        if (has_materials()) add_materials(part_of(task_, 0.98, 1));
         task_.report(1, "done");
         return std::move(result_);
     }
@@ -69,6 +73,7 @@ class Compressor {
     void fit_islands() {
         const std::size_t n = prepared_.islands.size();
         chosen_.assign(n, {});
+        copies_.assign(n, {});
         first_of_.resize(n);
         std::iota(first_of_.begin(), first_of_.end(), std::size_t{0});
         const bool repeats = fit_repeated(part_of(task_, 0.02, 0.02 + kFitting / 2));
@@ -96,6 +101,7 @@ class Compressor {
             const std::size_t first = *std::min_element(fitted->islands.begin(), fitted->islands.end());
             for (const std::size_t i : fitted->islands) first_of_[i] = first;
             chosen_[first] = std::move(fitted->outcome);
+            copies_[first] = std::move(fitted->islands);
         }
         return !groups.empty();
     }
@@ -146,6 +152,7 @@ class Compressor {
         model_.diagonal = prepared_.diagonal;
         of_mesh_part_.reset();
         objects_.clear();
+        islands_of_.clear();
         std::vector<std::int32_t> object_of(n, -1);
         std::vector<std::size_t> rest;
         for (const std::size_t i : by_nesting()) {
@@ -200,10 +207,14 @@ class Compressor {
         if (sheet != nullptr) sheet->surface += offset, sheet->trim += offset;
         for (const Function& f : outcome.functions) model_.functions.push_back(f);
         model_.objects.push_back(std::move(object));
+        islands_of_.emplace_back();
+        for (const std::size_t copy : copies_[chosen]) islands_of_.back().push_back({copy});
+        if (islands_of_.back().empty()) islands_of_.back().push_back({i});
         return static_cast<std::int32_t>(model_.objects.size()) - 1;
     }
 
     void add_mesh_part(const std::vector<std::size_t>& rest) {
+        islands_of_.push_back({rest});
         if (rest.size() == 1 && chosen_[rest[0]]) {
             model_.objects.push_back(chosen_[rest[0]]->object);
             of_mesh_part_ = chosen_[rest[0]]->deviation;
@@ -284,6 +295,21 @@ class Compressor {
         return reached <= tolerance_;
     }
 
+    // One material without a name says nothing.
+    bool has_materials() const {
+        return materials_.names.size() > 1 || (materials_.names.size() == 1 && !materials_.names[0].empty());
+    }
+
+    // Beside the functions, which stay as they are.
+    void add_materials(const Task& task) {
+        const PaintGoal goal{input_, materials_, prepared_, islands_of_, tolerance_, options_.effort};
+        result_.model.materials = paint_model(result_.model, goal, result_.report.paint, task);
+        std::vector<std::uint8_t> bytes = encode(result_.model);
+        result_.report.paint.bytes = bytes.size() - result_.bytes.size();
+        result_.bytes = std::move(bytes);
+        result_.model = *decode(result_.bytes);
+    }
+
     // Does the file hold the islands' functions, and nothing else, as they were when they were made meshes?
     bool reads_as_proved(const Model& decoded) const {
         for (std::size_t i = 0; i < chosen_.size(); ++i) {
@@ -333,14 +359,18 @@ class Compressor {
     }
 
     const TriangleMesh& input_;
+    const FaceMaterials& materials_;
     const CompressOptions& options_;
     const Task& task_;
     double tolerance_ = 0;
     double share_ = 1;  // of the tolerance, that the islands may use
     PreparedMesh prepared_;
-    std::vector<std::optional<Outcome>> chosen_;  // of copies: at the first of them
-    std::vector<std::size_t> first_of_;           // island -> the first of its copies, or itself
-    std::vector<std::size_t> objects_;            // rows of chosen_, in the model's order
+    std::vector<std::optional<Outcome>> chosen_;    // of copies: at the first of them
+    std::vector<std::size_t> first_of_;             // island -> the first of its copies, or itself
+    std::vector<std::vector<std::size_t>> copies_;  // of those: the islands, in the order of the placements
+    std::vector<std::vector<std::vector<std::size_t>>>
+        islands_of_;                    // for each object, for each of its copies
+    std::vector<std::size_t> objects_;  // rows of chosen_, in the model's order
     std::optional<Deviation> of_mesh_part_;
     Model model_;
     Compressed result_;
@@ -349,7 +379,12 @@ class Compressor {
 }  // namespace
 
 Compressed compress(const TriangleMesh& mesh, const CompressOptions& options, const Task& task) {
-    return Compressor(mesh, options, task).run();
+    const FaceMaterials none;
+    return Compressor(mesh, none, options, task).run();
+}
+
+Compressed compress(const PaintedMesh& mesh, const CompressOptions& options, const Task& task) {
+    return Compressor(mesh.mesh, mesh.materials, options, task).run();
 }
 
 }  // namespace pfgeom

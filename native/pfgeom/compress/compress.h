@@ -4,6 +4,7 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/function/model.h"
+#include "pfgeom/mesh/face_materials.h"
 #include "pfgeom/mesh/prepare.h"
 #include "pfgeom/report/deviation.h"
 
@@ -32,6 +33,13 @@ struct IslandReport {
     double bytes = 0;         ///< estimated: objects share one stream, copies one pattern
 };
 
+/// How the default mesh's materials compare with the input's.
+struct PaintReport {
+    std::size_t bytes = 0;  ///< of the file, that the materials take
+    double right = 1;       ///< share of the area that has the material of the input's surface beside it
+    double stray = 0;  ///< share that has not, and is farther than the tolerance from a border of what it has
+};
+
 struct CompressReport {
     MeshDefects defects;
     std::vector<IslandReport> islands;
@@ -39,6 +47,7 @@ struct CompressReport {
     std::int64_t raw_bytes = 0;   ///< as the paper counts: 12 a vertex and 12 a triangle
     Deviation deviation;          ///< input against the default mesh, as measured at the end
     std::int64_t mesh_faces = 0;  ///< of the default mesh
+    PaintReport paint;
 };
 
 struct Compressed {
@@ -49,6 +58,9 @@ struct Compressed {
 
 /// Throws InvalidInput, LimitExceeded, Cancelled.
 Compressed compress(const TriangleMesh& mesh, const CompressOptions& options, const Task& task = {});
+/// The same functions, and materials of the surface. The promise is about the surface; its materials are
+/// fitted within the tolerance and measured.
+Compressed compress(const PaintedMesh& mesh, const CompressOptions& options, const Task& task = {});
 
 struct MeshOptions {
     std::optional<double> tolerance;  ///< extra error of the mesh against the functions, in the mesh's units
@@ -57,6 +69,8 @@ struct MeshOptions {
 
 /// The default mesh (neither option set) is the one that the promise is about.
 TriangleMesh to_mesh(const Model& model, const MeshOptions& options = {}, const Task& task = {});
+/// The same surface, its faces cut along the borders of materials; no materials if the model has none.
+PaintedMesh to_painted_mesh(const Model& model, const MeshOptions& options = {}, const Task& task = {});
 
 /// The headline figure: surface functions + separators and trims + perturbations, and apart from
 /// them the flat and the curved faces of mesh parts. Every distinct quadric of a tree counts as a surface

@@ -1,8 +1,11 @@
 #include "pfgeom/compress/object_mesh.h"
 
 #include "pfgeom/base/error.h"
+#include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/eval/mesh_part.h"
+#include "pfgeom/eval/nearest_quadric.h"
 #include "pfgeom/eval/solid_field.h"
+#include "pfgeom/polygonize/paint_faces.h"
 #include "pfgeom/polygonize/polygonize.h"
 
 #include <algorithm>
@@ -10,6 +13,11 @@
 
 namespace pfgeom {
 namespace {
+
+// Of the tolerance: far below what a border may be off (paint_fit.cpp, kNear).
+constexpr double kSnapShare = 1.0 / 16;
+// Of the diagonal, where no tolerance was named.
+constexpr double kSnapOfDiagonal = 1e-4;
 
 constexpr int kLeastDepth = 3, kMostDepth = 10;
 
@@ -60,6 +68,10 @@ Fineness fineness_of(const Model& model, const Object& object, const MeshOptions
     return {.chord = chord_of(model, object), .length = cell_for(model, object, options)};
 }
 
+void turn_faces(TriangleMesh& mesh) {
+    for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
+}
+
 TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const PolygonizeOptions& options,
                            const Task& task) {
     const Function& surface = model.functions[static_cast<std::size_t>(sheet.surface)];
@@ -70,10 +82,6 @@ TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const Polygon
 }
 
 }  // namespace
-
-void turn_faces(TriangleMesh& mesh) {
-    for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
-}
 
 // A complement fills the cube; its surface is that of its operand, with the faces turned.
 TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
@@ -97,6 +105,33 @@ TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshO
     for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
     if (complement || object.cavity_of >= 0) turn_faces(mesh);
     return mesh;
+}
+
+TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
+    TriangleMesh copy = mesh;
+    for (Vec3& v : copy.vertices) v = s.apply(v);
+    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) turn_faces(copy);
+    return copy;
+}
+
+double border_snap(const Model& model) {
+    const double tolerance = model.promise.tolerance;
+    return tolerance > 0 ? kSnapShare * tolerance : kSnapOfDiagonal * model.diagonal;
+}
+
+std::vector<std::int32_t> paint_mesh(TriangleMesh& mesh, const Object& object, const Paint& paint,
+                                     double snap, const Task& task) {
+    const MaterialTree& first = paint.trees.front();
+    if (!paint.by_quadric && first.nodes.size() == 1)
+        return std::vector<std::int32_t>(mesh.faces.size(), first.nodes.front().material);
+    std::vector<const MaterialTree*> tree_of(mesh.faces.size(), &first);
+    if (paint.by_quadric) {
+        const std::vector<std::int32_t> quadrics =
+            nearest_quadrics(std::get<SetTree>(object.shape), object.frame, mesh, task);
+        for (std::size_t f = 0; f < tree_of.size(); ++f)
+            tree_of[f] = &paint.trees[static_cast<std::size_t>(quadrics[f])];
+    }
+    return paint_faces(mesh, object.frame, tree_of, snap, task);
 }
 
 }  // namespace pfgeom

@@ -25,22 +25,49 @@ void check_options(const MeshOptions& options) {
     }
 }
 
-TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
-    TriangleMesh copy = mesh;
-    for (Vec3& v : copy.vertices) v = s.apply(v);
-    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) turn_faces(copy);
-    return copy;
+// A few bytes can name many copies of a large mesh.
+void append_copy(const TriangleMesh& mesh, const Similarity& place, TriangleMesh& all, const Task& task) {
+    if (mesh.faces.size() > Limits{}.polygon_faces - all.faces.size())
+        throw LimitExceeded("the copies of the objects have more than 20 million faces");
+    task.check();
+    append(copy_of(mesh, place), all);
 }
 
-// A few bytes can name many copies of a large mesh.
-void append_copies(const TriangleMesh& mesh, const Object& object, TriangleMesh& all, const Task& task) {
+// Every copy with the paint that is its own or that all share.
+void append_painted(const TriangleMesh& mesh, const Object& object, const std::vector<Paint>& paints,
+                    double snap, PaintedMesh& all, const Task& task) {
+    TriangleMesh cut;
+    std::vector<std::int32_t> materials;
     const std::vector<Similarity> copies = copies_of(object);
-    if (mesh.faces.size() > (Limits{}.polygon_faces - all.faces.size()) / copies.size())
-        throw LimitExceeded("the copies of the objects have more than 20 million faces");
-    for (const Similarity& s : copies) {
-        task.check();
-        append(copy_of(mesh, s), all);
+    for (std::size_t c = 0; c < copies.size(); ++c) {
+        if (c < paints.size()) {
+            cut = mesh;
+            materials = paint_mesh(cut, object, paints[c], snap, quiet(task, task.threads));
+        }
+        append_copy(cut, copies[c], all.mesh, task);
+        all.materials.of_face.insert(all.materials.of_face.end(), materials.begin(), materials.end());
     }
+}
+
+PaintedMesh whole_mesh(const Model& model, const MeshOptions& options, bool painted, const Task& task) {
+    check_options(options);
+    PaintedMesh all;
+    if (painted) all.materials.names = model.materials.names;
+    const auto count = static_cast<double>(model.objects.size());
+    for (std::size_t i = 0; i < model.objects.size(); ++i) {
+        const auto at = static_cast<double>(i);
+        const Object& object = model.objects[i];
+        const Task part = part_of(task, at / count, (at + 1) / count);
+        part.report(0, "polygonize");
+        const TriangleMesh mesh = mesh_in_place(model, object, options, part);
+        if (painted) {
+            append_painted(mesh, object, model.materials.objects[i], border_snap(model), all, part);
+        } else {
+            for (const Similarity& place : copies_of(object)) append_copy(mesh, place, all.mesh, part);
+        }
+    }
+    task.report(1, "polygonize");
+    return all;
 }
 
 // Different sets of coefficients.
@@ -54,18 +81,11 @@ std::int64_t distinct_quadrics(const SetTree& tree) {
 }  // namespace
 
 TriangleMesh to_mesh(const Model& model, const MeshOptions& options, const Task& task) {
-    check_options(options);
-    TriangleMesh all;
-    const auto count = static_cast<double>(model.objects.size());
-    for (std::size_t i = 0; i < model.objects.size(); ++i) {
-        const auto at = static_cast<double>(i);
-        const Object& object = model.objects[i];
-        const Task part = part_of(task, at / count, (at + 1) / count);
-        part.report(0, "polygonize");
-        append_copies(mesh_in_place(model, object, options, part), object, all, part);
-    }
-    task.report(1, "polygonize");
-    return all;
+    return whole_mesh(model, options, false, task).mesh;
+}
+
+PaintedMesh to_painted_mesh(const Model& model, const MeshOptions& options, const Task& task) {
+    return whole_mesh(model, options, !model.materials.empty(), task);
 }
 
 FunctionCount count_functions(const Model& model) {

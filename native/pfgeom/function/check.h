@@ -6,7 +6,6 @@
 #include "pfgeom/function/model.h"
 
 #include <string>
-#include <string_view>
 
 namespace pfgeom {
 
@@ -17,7 +16,7 @@ std::string find_flaw(const Model& model, const Limits& limits = {});
 /// twice on a path, every integer within its range (function/set_tree_check.cpp).
 std::string find_flaw(const SetTree& tree);
 
-/// Well-formed UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
-bool is_utf8(std::string_view text);
+/// The same for the materials alone (function/material_check.cpp).
+std::string find_flaw_of_materials(const Model& model, const Limits& limits = {});
 
 }  // namespace pfgeom

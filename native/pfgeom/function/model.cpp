@@ -12,4 +12,8 @@ std::vector<Similarity> copies_of(const Object& object) {
     return copies;
 }
 
+std::size_t copy_count(const Object& object) {
+    return object.placements.empty() ? 1 + object.instances.size() : object.placements.list.size();
+}
+
 }  // namespace pfgeom

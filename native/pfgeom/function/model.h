@@ -4,6 +4,7 @@
 
 #include "pfgeom/base/triangle.h"
 #include "pfgeom/function/frame.h"
+#include "pfgeom/function/material_map.h"
 #include "pfgeom/function/placement.h"
 #include "pfgeom/function/quadric.h"
 #include "pfgeom/function/set_tree.h"
@@ -165,10 +166,12 @@ struct Model {
     std::vector<std::string> names;         ///< optional: of the objects, or of the whole
     std::vector<double> world_transform;    ///< optional: 16 values, row-major, the last row 0 0 0 1
     std::vector<std::int32_t> face_groups;  ///< optional: a label >= 0 for each face of the default mesh
+    MaterialMap materials;                  ///< optional: of the surface
 };
 
 /// Where the object lies: in place (the identity) and its instances, or its placements.
 std::vector<Similarity> copies_of(const Object& object);
+std::size_t copy_count(const Object& object);  ///< of them
 
 /// The default mesh's chord tolerance, in the world's units.
 inline double chord_of(const Model& model, const Object& object) {

@@ -14,15 +14,25 @@ namespace {
 
 struct Format {
     std::string_view extension;
-    TriangleMesh (*read)(std::span<const std::uint8_t>);
-    std::vector<std::uint8_t> (*write)(const TriangleMesh&);
+    LoadedMesh (*read)(std::span<const std::uint8_t>);
+    std::vector<std::uint8_t> (*write)(const TriangleMesh&, const FaceMaterials&);
 };
 
+// Formats that know of no materials.
+template <TriangleMesh read(std::span<const std::uint8_t>)>
+LoadedMesh read_plain(std::span<const std::uint8_t> bytes) {
+    return {read(bytes), {}, {}};
+}
+template <std::vector<std::uint8_t> write(const TriangleMesh&)>
+std::vector<std::uint8_t> write_plain(const TriangleMesh& mesh, const FaceMaterials&) {
+    return write(mesh);
+}
+
 constexpr std::array<Format, 4> kFormats{{
-    {".OBJ", read_obj, write_obj},
-    {".PLY", read_ply, write_ply},
-    {".STL", read_stl, write_stl},
-    {".OFF", read_off, write_off},
+    {".OBJ", read_obj_file, write_obj},
+    {".PLY", read_ply_file, write_ply},
+    {".STL", read_plain<read_stl>, write_plain<write_stl>},
+    {".OFF", read_plain<read_off>, write_plain<write_off>},
 }};
 
 const Format& format_of(const std::string& path) {
@@ -35,6 +45,10 @@ const Format& format_of(const std::string& path) {
 }  // namespace
 
 TriangleMesh read_mesh(const std::string& path) {
+    return read_mesh_file(path).mesh;
+}
+
+LoadedMesh read_mesh_file(const std::string& path) {
     const Format& format = format_of(path);
     const std::vector<std::uint8_t> bytes = read_file(path);
     try {
@@ -44,10 +58,11 @@ TriangleMesh read_mesh(const std::string& path) {
     }
 }
 
-void write_mesh(const std::string& path, const TriangleMesh& mesh) {
+void write_mesh(const std::string& path, const TriangleMesh& mesh, const FaceMaterials& materials) {
     const Format& format = format_of(path);
     check_indices(mesh);
-    write_file(path, format.write(mesh));
+    check_materials(materials, mesh.faces.size());
+    write_file(path, format.write(mesh, materials));
 }
 
 }  // namespace pfgeom

@@ -20,6 +20,7 @@ struct Place {
 class MeshBuilder {
   public:
     void reserve_vertices(std::size_t n) { mesh_.vertices.reserve(n); }
+    std::size_t face_count() const { return mesh_.faces.size(); }  ///< so far, triangles
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(mesh_.vertices.size()); }
 
     void add_vertex(const Vec3& position) { mesh_.vertices.push_back(position); }

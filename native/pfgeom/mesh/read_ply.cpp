@@ -1,15 +1,20 @@
 // PLY, ascii and binary of both byte orders. Taken are x, y, z of "vertex" and the list "vertex_indices" (or
-// "vertex_index") of "face" (polygons) and "tristrips" (strips of triangles, -1 between two strips); other
-// elements and properties are passed over, in any order.
+// "vertex_index") of "face" (polygons) and "tristrips" (strips of triangles, -1 between two strips), and
+// "material_index" of "face"; other elements and properties are passed over, in any order.
 #include "pfgeom/base/error.h"
+#include "pfgeom/base/limits.h"
 #include "pfgeom/mesh/binary_scanner.h"
 #include "pfgeom/mesh/formats.h"
 #include "pfgeom/mesh/mesh_builder.h"
 #include "pfgeom/mesh/ply_header.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace pfgeom {
 namespace {
@@ -118,29 +123,67 @@ void add_strips(MeshBuilder& builder, const std::vector<std::int64_t>& strip, st
     }
 }
 
+bool has_property(const PlyElement& element, std::initializer_list<std::string_view> names) {
+    return std::any_of(element.properties.begin(), element.properties.end(), [&](const PlyProperty& p) {
+        return std::find(names.begin(), names.end(), p.name) != names.end();
+    });
+}
+
+std::vector<std::string> lost_of(const PlyHeader& header) {
+    const auto says = [&](std::initializer_list<std::string_view> names) {
+        return std::any_of(header.elements.begin(), header.elements.end(),
+                           [&](const PlyElement& element) { return has_property(element, names); });
+    };
+    std::vector<std::string> lost;
+    if (says({"s", "t", "u", "v", "texture_u", "texture_v", "texcoord"}))
+        lost.emplace_back("texture coordinates");
+    if (says({"nx", "ny", "nz"})) lost.emplace_back("normals");
+    if (says({"red", "green", "blue", "r", "g", "b", "alpha"})) lost.emplace_back("colours");
+    return lost;
+}
+
 template <class Source>
 class PlyReader {
   public:
     explicit PlyReader(Source source) : source_(std::move(source)) {}
 
-    TriangleMesh read(const PlyHeader& header) {
+    LoadedMesh read(const PlyHeader& header) {
         for (const PlyElement& element : header.elements) {
             std::size_t least = 0;
             for (const PlyProperty& p : element.properties)
                 least += source_.least_bytes(p.list ? p.count_type : p.type);
             if (least == 0) continue;  // no properties: nothing of it is in the file
             check_count(element, least, source_.bytes_left());
+            if (element.name == "face") has_materials_ = has_property(element, {"material_index"});
             for (std::int64_t i = 0; i < element.count; ++i) read_row(element, i);
         }
-        return builder_.finish();
+        FaceMaterials painted = materials();
+        return {builder_.finish(), std::move(painted), lost_of(header)};
     }
 
   private:
+    // Strips have none.
+    FaceMaterials materials() {
+        constexpr auto kMost = static_cast<std::int64_t>(Limits{}.materials);
+        FaceMaterials result;
+        std::int64_t highest = -1;
+        for (const std::int64_t m : materials_) {
+            if (m < 0 || m >= kMost) return {};
+            highest = std::max(highest, m);
+        }
+        if (highest < 0) return {};
+        materials_.resize(builder_.face_count(), 0);
+        result.of_face.assign(materials_.begin(), materials_.end());
+        result.names.resize(static_cast<std::size_t>(highest) + 1);
+        return result;
+    }
+
     void read_row(const PlyElement& element, std::int64_t row) {
         const bool is_vertex = element.name == "vertex";
         const bool is_face = element.name == "face", is_strips = element.name == "tristrips";
         constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
         Vec3 position{kMissing, kMissing, kMissing};
+        std::int64_t material = -1;
         for (const PlyProperty& property : element.properties) {
             const bool is_axis =
                 property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
@@ -151,21 +194,25 @@ class PlyReader {
                 read_list(source_, property, list_);
                 if (is_face) builder_.add_polygon(list_, {"face", row});
                 if (is_strips) add_strips(builder_, list_, row);
+            } else if (is_face && property.name == "material_index" && !property.list) {
+                material = source_.integer(property.type);
             } else {
                 skip(source_, property);
             }
         }
         if (is_vertex) builder_.add_vertex(position);
+        if (is_face && has_materials_) materials_.resize(builder_.face_count(), material);
     }
 
     Source source_;
     MeshBuilder builder_;
-    std::vector<std::int64_t> list_;
+    std::vector<std::int64_t> list_, materials_;
+    bool has_materials_ = false;
 };
 
 }  // namespace
 
-TriangleMesh read_ply(std::span<const std::uint8_t> bytes) {
+LoadedMesh read_ply_file(std::span<const std::uint8_t> bytes) {
     TextScanner scanner(bytes);
     const PlyHeader header = read_ply_header(scanner);
     if (header.format == PlyFormat::ascii) return PlyReader(AsciiSource(scanner)).read(header);

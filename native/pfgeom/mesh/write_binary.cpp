@@ -36,18 +36,22 @@ void put_point(ValueWriter& out, const Vec3& p) {
 
 }  // namespace
 
-std::vector<std::uint8_t> write_ply(const TriangleMesh& mesh) {
+std::vector<std::uint8_t> write_ply(const TriangleMesh& mesh, const FaceMaterials& materials) {
+    const bool painted = !materials.of_face.empty();
     const bool single = floats_suffice(mesh);
     const std::string type = single ? "float" : "double";
-    ValueWriter out(300 + mesh.vertices.size() * (single ? 12 : 24) + mesh.faces.size() * 13);
+    ValueWriter out(300 + mesh.vertices.size() * (single ? 12 : 24) +
+                    mesh.faces.size() * (painted ? 17 : 13));
     out.put_text("ply\nformat binary_little_endian 1.0\nelement vertex " +
                  std::to_string(mesh.vertices.size()) + "\nproperty " + type + " x\nproperty " + type +
                  " y\nproperty " + type + " z\nelement face " + std::to_string(mesh.faces.size()) +
-                 "\nproperty list uchar int vertex_indices\nend_header\n");
+                 "\nproperty list uchar int vertex_indices\n" +
+                 (painted ? "property int material_index\n" : "") + "end_header\n");
     for (const Vec3& v : mesh.vertices) single ? put_point<float>(out, v) : put_point<double>(out, v);
-    for (const Triangle& face : mesh.faces) {
+    for (std::size_t row = 0; row < mesh.faces.size(); ++row) {
         out.put(std::uint8_t{3});
-        for (const std::int32_t v : face) out.put(v);
+        for (const std::int32_t v : mesh.faces[row]) out.put(v);
+        if (painted) out.put(materials.of_face[row]);
     }
     return out.take();
 }

@@ -35,6 +35,30 @@ def check_round_trip():
     assert scenes.figures(back)["functions"][0] == 1
 
 
+def check_materials_come_with_the_file():
+    """By their names; faces have them where they had them."""
+    box = scenes.cube("Box")
+    for name in ("Red", "Blue"):
+        box.data.materials.append(bpy.data.materials.new(name))
+    box.data.materials.append(None)
+    for polygon in box.data.polygons:
+        polygon.material_index = int(polygon.center.z > 0.9) + 2 * int(polygon.center.x > 0.9)
+    scenes.select(box)
+    bpy.ops.pfgeom.compress(share=1.0, effort="fast")
+    _exported("box")
+    bpy.ops.wm.read_homefile(use_empty=True)
+    known = bpy.data.materials.new("Blue")
+    bpy.ops.import_mesh.pfgeom(filepath=str(folder() / "box.pfg"))
+    mesh = bpy.context.object.data
+    slots = list(mesh.materials)
+    assert [slot.name if slot else None for slot in slots] == ["Red", "Blue", None] and slots[1] == known
+    for polygon in mesh.polygons:
+        if sum(abs(c) > 0.9 for c in polygon.center) > 1:
+            continue  # beside an edge of the box, where a border may be off by the tolerance
+        wanted = int(polygon.normal.z > 0.9) + 2 * int(polygon.normal.x > 0.9)
+        assert polygon.material_index == wanted, (tuple(polygon.normal), polygon.material_index)
+
+
 def check_several_at_once():
     balls = [scenes.sphere(name) for name in ("a/b", "a:b", "c")]
     scenes.select(*balls)

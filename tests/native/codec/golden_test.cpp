@@ -67,6 +67,7 @@ std::map<std::string, Model> golden_models() {
     named.names = {"Kugel \xC3\xBC"};
     named.world_transform = {1, 0, 0, 2, 0, 0.5, 0, 3, 0, 0, -1, 4, 0, 0, 0, 1};
     named.face_groups = {0, 0, 0, 5, 5, 0};
+    models["painted"] = test::painted(tree, 5);
     for (std::uint64_t seed = 0; seed < 10; ++seed)
         models["random" + std::to_string(seed)] = test::random_model(seed);
     return models;
@@ -77,6 +78,7 @@ std::map<std::string, Model> placed_models() {
     std::map<std::string, Model> models;
     for (const auto& [name, model] : golden_models())
         models[name] = test::with_placements(model, name.size());
+    models["painted"] = test::painted(models["tree"], 6);
     return models;
 }
 

@@ -66,9 +66,13 @@ Model with_tree(int depth) {
 }
 
 std::vector<Bytes> small_files() {
-    return {encode(ball()),           encode(with_hierarchy(3)),
-            encode(with_mesh_part()), encode(with_curved_part()),
-            encode(with_tree(4)),     encode(test::with_placements(ball(), 3))};
+    return {encode(ball()),
+            encode(with_hierarchy(3)),
+            encode(with_mesh_part()),
+            encode(with_curved_part()),
+            encode(with_tree(4)),
+            encode(test::with_placements(ball(), 3)),
+            encode(test::painted(with_tree(3), 15))};
 }
 
 Bytes flipped(Bytes bytes, std::size_t bit) {

@@ -78,9 +78,16 @@ class ModelHash {
         add(p.metric == Metric::rms), add(p.tolerance), add(p.bound_mesh), add(p.certified), add(p.rms);
         add(p.bound_functions), add(p.functions_certified);
     }
+    void add(const MaterialNode& n) {
+        add(n.material), add(n.axis), add(n.bits), add(n.tilt), add(n.offset), add(n.high), add(n.low);
+        add(n.normal), add(n.level);
+    }
+    void add(const MaterialTree& t) { add(t.nodes); }
+    void add(const Paint& p) { add(p.by_quadric), add(p.trees); }
     void add(const Model& m) {
         add(m.functions), add(m.objects), add(m.diagonal), add(m.promise);
         add(m.names), add(m.world_transform), add(m.face_groups);
+        if (!m.materials.empty()) add(m.materials.names), add(m.materials.objects);
     }
 
   private:

@@ -217,6 +217,53 @@ inline Model with_placements(Model model, std::uint64_t seed) {
 }
 
 /// One solid of one ball: the smallest file.
+inline void grow_material_tree(Random& random, const Box& cell, int depth, int materials,
+                               MaterialTree& tree) {
+    MaterialNode node;
+    const std::size_t row = tree.nodes.size();
+    tree.nodes.emplace_back();
+    if (depth == 0 || below(random, 4) == 0) {
+        tree.nodes[row].material = below(random, materials);
+        return;
+    }
+    node.axis = static_cast<std::uint8_t>(below(random, 3));
+    node.bits = static_cast<std::uint8_t>(below(random, kMostPlaneBits + 1));
+    const int one = 1 << node.bits;
+    if (below(random, 2) == 0) {
+        for (std::int32_t& tilt : node.tilt)
+            tilt = below(random, 3) == 0 ? 0 : below(random, 2 * one + 1) - one;
+    }
+    const int most = (node.is_cut() ? 1 : 3) * one - 1;
+    node.offset = below(random, 2 * most + 1) - most;
+    derive(node, cell);
+    node.high = static_cast<std::int32_t>(tree.nodes.size());
+    grow_material_tree(random, high_cell(node, cell), depth - 1, materials, tree);
+    node.low = static_cast<std::int32_t>(tree.nodes.size());
+    grow_material_tree(random, low_cell(node, cell), depth - 1, materials, tree);
+    tree.nodes[row] = node;
+}
+
+/// With random materials: some objects' copies share them, and set trees have them by quadric or not.
+inline Model painted(Model model, std::uint64_t seed) {
+    Random random(seed);
+    const int materials = 1 + below(random, 40);
+    for (int m = 0; m < materials; ++m)
+        model.materials.names.push_back(m % 5 == 4 ? ""
+                                                   : "Stoff \xC3\xBC." + std::to_string(below(random, 1000)));
+    for (const Object& object : model.objects) {
+        const auto* tree = std::get_if<SetTree>(&object.shape);
+        std::vector<Paint> paints(below(random, 2) == 0 ? 1 : copy_count(object));
+        for (Paint& paint : paints) {
+            paint.by_quadric = tree != nullptr && !tree->quadrics.empty() && below(random, 2) == 0;
+            paint.trees.resize(paint.by_quadric ? tree->quadrics.size() : 1);
+            for (MaterialTree& t : paint.trees)
+                grow_material_tree(random, root_cell(), paint.by_quadric ? 1 : 6, materials, t);
+        }
+        model.materials.objects.push_back(std::move(paints));
+    }
+    return model;
+}
+
 inline Model ball() {
     Model model;
     model.diagonal = 2;

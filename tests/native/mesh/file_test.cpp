@@ -25,6 +25,27 @@ class MeshFile : public testing::Test {
     ScratchFolder folder_;
 };
 
+TEST_F(MeshFile, MaterialsGoIntoObjAndPlyAndComeBack) {
+    const TriangleMesh mesh = shapes::sphere(1);
+    FaceMaterials materials{{}, {"red", "", "two\nlines"}};
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        materials.of_face.push_back(static_cast<std::int32_t>(f % 3));
+    for (const char* extension : {".obj", ".ply", ".stl", ".off"}) {
+        write_mesh(path(extension), mesh, materials);
+        const FaceMaterials back = read_mesh_file(path(extension)).materials;
+        const std::string kind = extension;
+        EXPECT_EQ(back.of_face,
+                  kind == ".obj" || kind == ".ply" ? materials.of_face : std::vector<std::int32_t>{});
+        if (kind == ".obj") {
+            EXPECT_EQ(back.names, (std::vector<std::string>{"red", "material_1", "two lines"}));
+        } else if (kind == ".ply") {
+            EXPECT_EQ(back.names.size(), 3u);
+        }
+    }
+    materials.of_face.pop_back();
+    EXPECT_THROW(write_mesh(path(".obj"), mesh, materials), InvalidInput);
+}
+
 TEST_F(MeshFile, TextFormatsGiveBackTheSameBits) {
     TriangleMesh mesh = shapes::bumpy_sphere(3);
     mesh.vertices[0] = {1.0 / 3, -1e-300, 12345678.9012345678};

@@ -43,6 +43,27 @@ TEST(ReadObj, NothingIsAMeshWithoutFaces) {
     EXPECT_TRUE(read("\n\n# only this").faces.empty());
 }
 
+TEST(ReadObj, MaterialsOfFacesByName) {
+    const auto file = [](const std::string& text) { return read_obj_file(bytes_of(kCorners + text)); };
+    const FaceMaterials plain = file("f 1 2 3\n").materials;
+    EXPECT_TRUE(plain.of_face.empty() && plain.names.empty());
+    const FaceMaterials used = file(
+                                   "f 1 2 3\nusemtl  red paint \r\nf 1 2 3 4\nusemtl b#2\nusemtl red "
+                                   "paint\nf 1 2 3\nusemtl b#2\nf 2 3 4\n")
+                                   .materials;
+    EXPECT_EQ(used.of_face, (std::vector<std::int32_t>{0, 1, 1, 1, 2}));
+    EXPECT_EQ(used.names, (std::vector<std::string>{"", "red paint", "b#2"}));
+    EXPECT_EQ(file("usemtl a\xFF\nf 1 2 3\n").materials.names, std::vector<std::string>{"a?"});
+    EXPECT_EQ(file("usemtl " + std::string(254, 'a') + "\xC3\xBC\nf 1 2 3\n").materials.names,
+              std::vector<std::string>{std::string(254, 'a')});
+}
+
+TEST(ReadObj, SaysWhatIsNotTakenOver) {
+    EXPECT_TRUE(read_obj_file(bytes_of(kCorners + "f 1 2 3\n")).lost.empty());
+    EXPECT_EQ(read_obj_file(bytes_of("v 0 0 0 1 0.5 0\nvt 0 0\nvn 0 0 1\n" + kCorners + "f 1 2 3\n")).lost,
+              (std::vector<std::string>{"texture coordinates", "normals", "colours"}));
+}
+
 TEST(ReadObj, NamesTheLineOfWhatIsWrong) {
     EXPECT_EQ(complaint(read_obj, "v 0 0 0\nv 1 x 0\n"), "line 2: a number is expected, not 'x'");
     EXPECT_EQ(complaint(read_obj, "v 0 0\n"), "line 1: a number is expected, not the line's end");

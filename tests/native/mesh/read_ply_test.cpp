@@ -81,6 +81,27 @@ TEST(ReadPly, RefusesCountsThatTheFileCannotHold) {
     EXPECT_TRUE(read_ply(bytes_of(header("ascii", "element ghost 9000000000000000000\n"))).faces.empty());
 }
 
+TEST(ReadPly, MaterialsOfFacesAndWhatIsNotTakenOver) {
+    const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    const std::string faces =
+        "element face 2\nproperty int material_index\nproperty list uchar int vertex_indices\n";
+    const auto with = [&](const std::string& rows) {
+        return read_ply_file(bytes_of(header("ascii", kXyz + faces) + points + rows)).materials;
+    };
+    EXPECT_EQ(with("2 4 0 1 2 3\n0 3 0 1 2\n").of_face, (std::vector<std::int32_t>{2, 2, 0}));
+    EXPECT_EQ(with("2 4 0 1 2 3\n0 3 0 1 2\n").names.size(), 3u);
+    EXPECT_TRUE(with("-1 4 0 1 2 3\n0 3 0 1 2\n").none());
+    EXPECT_TRUE(with("4096 4 0 1 2 3\n0 3 0 1 2\n").none());
+    const LoadedMesh bare = read_ply_file(bytes_of(header("ascii", kXyz + kFaces) + points + "3 0 1 2\n"));
+    EXPECT_TRUE(bare.materials.none());
+    EXPECT_TRUE(bare.lost.empty());
+    const std::string more =
+        "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float nx\nproperty float s\nproperty uchar red\n";
+    EXPECT_EQ(read_ply_file(bytes_of(header("ascii", more) + "0 0 0 1 0 255\n")).lost,
+              (std::vector<std::string>{"texture coordinates", "normals", "colours"}));
+}
+
 TEST(ReadPly, NamesWhatIsWrong) {
     const std::string quad = header("ascii", kXyz + kFaces) + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
     EXPECT_EQ(complaint(read_ply, quad + "3 0 1 4\n").substr(0, 7), "face 0:");
