@@ -2,6 +2,7 @@
 
 #include "pfgeom/codec/byte_reader.h"
 #include "pfgeom/codec/byte_writer.h"
+#include "pfgeom/codec/combination_codec.h"
 #include "pfgeom/function/check.h"
 
 #include <algorithm>
@@ -95,6 +96,8 @@ std::vector<Section> write_sections(const Model& model) {
     if (!model.face_groups.empty()) {
         sections.push_back({SectionId::face_groups, false, write_face_groups(model.face_groups)});
     }
+    if (!model.combination.empty())
+        sections.push_back({SectionId::combination, true, write_combination(model.combination)});
     return sections;
 }
 
@@ -110,6 +113,9 @@ FormatStatus read_sections(const Envelope& envelope, std::size_t memory, Model& 
                 break;
             case SectionId::face_groups:
                 status = read_face_groups(section.content, memory, model.face_groups);
+                break;
+            case SectionId::combination:
+                status = read_combination(section.content, model.combination);
                 break;
         }
         if (status != FormatStatus::ok) return status;

@@ -3,17 +3,21 @@
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/eval/mesh_part.h"
+#include "pfgeom/eval/model_field.h"
 #include "pfgeom/eval/solid_field.h"
 #include "pfgeom/polygonize/polygonize.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace pfgeom {
 namespace {
 
 constexpr int kLeastDepth = 3, kMostDepth = 10;
+constexpr int kMostDepthOfAll = 16;  // of a combination: of objects of very different sizes
 constexpr int kLeastResolution = 8, kMostResolution = 4096;
 
 void check_options(const MeshOptions& options) {
@@ -42,38 +46,43 @@ double largest_scale(const Object& object) {
     return largest;
 }
 
-double largest_half(const Model& model) {
-    double largest = 0;
-    for (const Object& o : model.objects) largest = std::max(largest, o.frame.half() * largest_scale(o));
-    return largest;
-}
+// Objects that are one shape, where they lie without the operand's place, and what is asked of their mesh.
+struct Objects {
+    std::span<const Object> list;
+    double diagonal = 0;
+    MeshOptions options;
 
-// What the pattern may miss so that none of its copies misses more.
-double chord_for(const Model& model, const Object& object, const MeshOptions& options) {
-    return options.tolerance ? *options.tolerance / largest_scale(object) : chord_of(model, object);
-}
+    double largest_half() const {
+        double largest = 0;
+        for (const Object& o : list) largest = std::max(largest, o.frame.half() * largest_scale(o));
+        return largest;
+    }
+    // What the pattern may miss so that none of its copies misses more.
+    double chord_for(const Object& object) const {
+        return options.tolerance ? *options.tolerance / largest_scale(object) : chord_of(object, diagonal);
+    }
+    // The longest cell or edge of the pattern.
+    double cell_for(const Object& object) const {
+        return 2 * largest_half() / *options.resolution / largest_scale(object);
+    }
+};
 
-// The longest cell or edge of the pattern.
-double cell_for(const Model& model, const Object& object, const MeshOptions& options) {
-    return 2 * largest_half(model) / *options.resolution / largest_scale(object);
-}
-
-PolygonizeOptions polygonize_options(const Model& model, const Object& object, const MeshOptions& options) {
+PolygonizeOptions polygonize_options(const Objects& all, const Object& object) {
     PolygonizeOptions result;
     result.min_depth = kLeastDepth;
     result.max_depth = kMostDepth;
     const double half = object.frame.half();
-    if (options.resolution) {
-        result.min_depth = result.max_depth = depth_for(half, cell_for(model, object, options));
+    if (all.options.resolution) {
+        result.min_depth = result.max_depth = depth_for(half, all.cell_for(object));
     } else {
-        result.tolerance = chord_for(model, object, options) / half;
+        result.tolerance = all.chord_for(object) / half;
     }
     return result;
 }
 
-Fineness fineness_of(const Model& model, const Object& object, const MeshOptions& options) {
-    if (!options.resolution) return {.chord = chord_for(model, object, options)};
-    return {.chord = chord_of(model, object), .length = cell_for(model, object, options)};
+Fineness fineness_of(const Objects& all, const Object& object) {
+    if (!all.options.resolution) return {.chord = all.chord_for(object)};
+    return {.chord = chord_of(object, all.diagonal), .length = all.cell_for(object)};
 }
 
 void turn_faces(TriangleMesh& mesh) {
@@ -90,11 +99,9 @@ TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const Polygon
 }
 
 // A complement fills the cube; its surface is that of its operand, with the faces turned.
-TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
-                           const Task& task) {
-    if (std::holds_alternative<MeshPart>(object.shape))
-        return mesh_of(object, fineness_of(model, object, options));
-    const PolygonizeOptions how = polygonize_options(model, object, options);
+TriangleMesh mesh_in_place(const Model& model, const Objects& all, const Object& object, const Task& task) {
+    if (std::holds_alternative<MeshPart>(object.shape)) return mesh_of(object, fineness_of(all, object));
+    const PolygonizeOptions how = polygonize_options(all, object);
     TriangleMesh mesh;
     bool complement = false;
     if (const auto* solid = std::get_if<Solid>(&object.shape)) {
@@ -131,6 +138,74 @@ void append_copies(const TriangleMesh& mesh, const Object& object, TriangleMesh&
     }
 }
 
+TriangleMesh mesh_of_objects(const Model& model, const Objects& all, const Task& task) {
+    TriangleMesh mesh;
+    const auto count = static_cast<double>(all.list.size());
+    for (std::size_t i = 0; i < all.list.size(); ++i) {
+        const auto at = static_cast<double>(i);
+        const Task part = part_of(task, at / count, (at + 1) / count);
+        part.report(0, "polygonize");
+        append_copies(mesh_in_place(model, all, all.list[i], part), all.list[i], mesh, part);
+    }
+    return mesh;
+}
+
+// An operand alone, where its transforms put it.
+TriangleMesh mesh_of_operand(const Model& model, const CombinationNode& operand, MeshOptions options,
+                             const Task& task) {
+    if (operand.moved && options.tolerance) *options.tolerance /= most_stretch(operand.place);
+    const std::span<const Object> list(model.objects);
+    const auto first = static_cast<std::size_t>(operand.first), last = static_cast<std::size_t>(operand.last);
+    TriangleMesh mesh =
+        mesh_of_objects(model, {list.subspan(first, last - first), operand.diagonal, options}, task);
+    if (!operand.moved) return mesh;
+    for (Vec3& v : mesh.vertices) v = operand.place.apply(v);
+    if (operand.place.mirrors()) turn_faces(mesh);
+    return mesh;
+}
+
+// Of all copies of all objects of all operands.
+struct Extremes {
+    double chord = std::numeric_limits<double>::infinity(), half = chord;
+};
+
+Extremes extremes_of(const Model& model, const std::vector<CombinationNode>& tree) {
+    Extremes least;
+    for (const CombinationNode& node : tree) {
+        const double stretch = node.moved ? most_stretch(node.place) : 1;
+        for (std::int32_t i = node.first; i < node.last; ++i) {
+            const Object& object = model.objects[static_cast<std::size_t>(i)];
+            const double scale = stretch * largest_scale(object);
+            least.chord = std::min(least.chord, chord_of(object, node.diagonal) * scale);
+            least.half = std::min(least.half, object.frame.half() * scale);
+        }
+    }
+    return least;
+}
+
+// One cube for all. Without a tolerance the finest of the objects' chords serves; cells may be as fine as each
+// object's own would be.
+TriangleMesh mesh_of_combination(const Model& model, const std::vector<CombinationNode>& tree,
+                                 const MeshOptions& options, const Task& task) {
+    const Box box = ModelField(model).bounds();
+    const Vec3 extent = box.hi - box.lo;
+    if (!(extent.x > 0 && extent.y > 0 && extent.z > 0)) return {};
+    const Frame frame = Frame::around(box);
+    const Extremes least = extremes_of(model, tree);
+    PolygonizeOptions how;
+    how.min_depth = kLeastDepth;
+    how.max_depth =
+        std::min(kMostDepth + depth_for(frame.half(), 2 * least.half) - kLeastDepth, kMostDepthOfAll);
+    how.tolerance = (options.tolerance ? *options.tolerance : least.chord) / frame.half();
+    if (options.resolution) {
+        const double cell = std::max({extent.x, extent.y, extent.z}) / *options.resolution;
+        how.min_depth = how.max_depth = depth_for(frame.half(), cell);
+    }
+    TriangleMesh mesh = polygonize_combination(model, frame, how, task);
+    for (Vec3& v : mesh.vertices) v = frame.to_world(v);
+    return mesh;
+}
+
 // Different sets of coefficients.
 std::int64_t distinct_quadrics(const SetTree& tree) {
     std::vector<std::array<double, 10>> coefficients;
@@ -143,17 +218,11 @@ std::int64_t distinct_quadrics(const SetTree& tree) {
 
 TriangleMesh to_mesh(const Model& model, const MeshOptions& options, const Task& task) {
     check_options(options);
-    TriangleMesh all;
-    const auto count = static_cast<double>(model.objects.size());
-    for (std::size_t i = 0; i < model.objects.size(); ++i) {
-        const auto at = static_cast<double>(i);
-        const Object& object = model.objects[i];
-        const Task part = part_of(task, at / count, (at + 1) / count);
-        part.report(0, "polygonize");
-        append_copies(mesh_in_place(model, object, options, part), object, all, part);
-    }
+    const std::vector<CombinationNode> tree = combination_tree(model);
+    TriangleMesh mesh = tree.back().is_operand() ? mesh_of_operand(model, tree.back(), options, task)
+                                                 : mesh_of_combination(model, tree, options, task);
     task.report(1, "polygonize");
-    return all;
+    return mesh;
 }
 
 FunctionCount count_functions(const Model& model) {

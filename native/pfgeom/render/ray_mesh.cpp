@@ -13,9 +13,9 @@ constexpr double kChord = 1e-5, kChordShare = 0.25;
 
 }  // namespace
 
-RayMesh::RayMesh(const Model& model, const Object& object, const Task& task)
+RayMesh::RayMesh(const Object& object, double diagonal, const Task& task)
     : RayMesh(mesh_of(object,
-                      {.chord = std::min(kChord * model.diagonal, kChordShare * chord_of(model, object))}),
+                      {.chord = std::min(kChord * diagonal, kChordShare * chord_of(object, diagonal))}),
               task) {}
 
 RayMesh::RayMesh(const TriangleMesh& mesh, const Task& task) : bvh_(mesh, task) {

@@ -15,6 +15,9 @@ class RayTarget {
     /// The first point of the surface with from <= t < to; `object` is left to the caller. In the world,
     /// without the object's further copies.
     virtual SurfaceHit first_hit(const Ray& ray, const RaySpan& span) const = 0;
+    /// Where the normals of hits do not tell inside from outside (a mesh's): is the point inside?
+    virtual bool tells_sides() const { return true; }
+    virtual bool contains(const Vec3&) const { return false; }
     /// Boxes that hold the surface together; none if there is no surface.
     virtual std::vector<Box> cover() const = 0;
 };
