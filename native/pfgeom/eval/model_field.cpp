@@ -118,13 +118,14 @@ struct ModelField::Part {
 struct ModelField::Node {
     CombinationNode what;
     Box box{};           // of its surface, in the model's space
-    double reach = 0;    // the value is at most -reach times the distance to the box, in the maximum norm
+    double reach = 0;    // beyond the box the value is at most -reach times the distance, in the maximum norm
     Affine back{};       // operand: to its own space
     double stretch = 1;  // operand: values there times this are at most distances here
 
     double most_at(const Vec3& p) const {
         const Vec3 d = max(box.lo - p, p - box.hi);
-        return -reach * std::max({d.x, d.y, d.z, 0.0});
+        const double beyond = std::max({d.x, d.y, d.z});
+        return beyond > 0 ? -reach * beyond : std::numeric_limits<double>::infinity();
     }
 };
 

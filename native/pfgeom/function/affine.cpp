@@ -34,6 +34,22 @@ Affine affine_of(const Frame& frame) {
     return {{{{half, 0, 0}, {0, half, 0}, {0, 0, half}}}, frame.centre()};
 }
 
+std::optional<Similarity> similarity_of(const Affine& map) {
+    constexpr double kRounding = 1e-9;
+    const double square = (squared_norm(map.rows[0]) + squared_norm(map.rows[1]) + squared_norm(map.rows[2])) / 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k <= i; ++k) {
+            const double expected = i == k ? square : 0;
+            if (!(std::abs(dot(map.rows[i], map.rows[k]) - expected) <= kRounding * square)) return std::nullopt;
+        }
+    }
+    Similarity similarity;
+    similarity.scale = std::sqrt(square);
+    for (std::size_t i = 0; i < 3; ++i) similarity.rows[i] = map.rows[i] / similarity.scale;
+    similarity.translation = map.translation;
+    return similarity;
+}
+
 Affine composed(const Affine& outer, const Affine& inner) {
     Affine both;
     for (std::size_t i = 0; i < 3; ++i) both.rows[i] = inner.pull(outer.rows[i]);
@@ -63,7 +79,8 @@ double most_stretch(const Affine& map) {
 std::string find_flaw(const Affine& map) {
     if (!std::all_of(map.rows.begin(), map.rows.end(), is_bounded) || !is_bounded(map.translation))
         return "a transform's numbers are not finite or beyond 2^60";
-    if (!(most_stretch(map) * most_stretch(inverse_of(map)) <= kMostFlat))
+    const double volume = std::abs(dot(map.rows[0], cross(map.rows[1], map.rows[2])));
+    if (!(volume > 0 && most_stretch(map) * most_stretch(inverse_of(map)) <= kMostFlat))
         return "a transform flattens space and cannot be inverted";
     if (!(most_stretch(map) >= 1 / kMostEntry)) return "a transform's scale is below 2^-60";
     return {};

@@ -7,6 +7,7 @@
 #include "pfgeom/function/quadric.h"
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace pfgeom {
@@ -28,6 +29,9 @@ struct Affine {
 Affine affine_of(const Similarity& similarity);
 /// From the frame's cube to the world.
 Affine affine_of(const Frame& frame);
+
+/// The same map, if it keeps angles but for rounding.
+std::optional<Similarity> similarity_of(const Affine& map);
 
 /// First `inner`, then `outer`.
 Affine composed(const Affine& outer, const Affine& inner);

@@ -104,7 +104,7 @@ class Cutting {
     void match(std::vector<Tetrahedron>& cells) const;
     bool cut_where_cut(const Tetrahedron& t, std::vector<Tetrahedron>& pieces) const;
     bool advance(Tetrahedron& t, bool may_cut);
-    bool follow(std::int32_t node, const Tetrahedron& t, bool may_cut, bool& inside);
+    bool follow(std::int32_t& node, const Tetrahedron& t, bool may_cut, bool& inside);
     bool follow_operation(std::int32_t node, const Tetrahedron& t, bool may_cut, bool& inside);
     void cut(const Tetrahedron& t, std::int32_t question);
     double distance(std::int32_t vertex, std::int32_t question) const {
@@ -177,9 +177,10 @@ bool Cutting::advance(Tetrahedron& t, bool may_cut) {
     return true;
 }
 
-// Follows the answers down, to leaves that go to reached_. False where a question with both answers matters and
-// has been given a cut.
-bool Cutting::follow(std::int32_t node, const Tetrahedron& t, bool may_cut, bool& inside) {
+// Follows the answers down, to leaves that go to reached_; `node` is then where the way ended. False where a
+// question with both answers matters and has been given a cut: pieces go on from there, since an answer that did
+// not matter stays given.
+bool Cutting::follow(std::int32_t& node, const Tetrahedron& t, bool may_cut, bool& inside) {
     for (;;) {
         const OpenNode n = cells_.open[node];
         if (n.question == SolidNode::kLeaf) {
@@ -204,19 +205,20 @@ bool Cutting::follow(std::int32_t node, const Tetrahedron& t, bool may_cut, bool
 // An operand that settles the operation speaks for it, else both do.
 bool Cutting::follow_operation(std::int32_t node, const Tetrahedron& t, bool may_cut, bool& inside) {
     const OpenNode n = cells_.open[node];
+    std::int32_t first = node + 1, second = node + n.low;
     if (n.question == SolidNode::kComplement) {
-        const bool done = follow(node + 1, t, may_cut, inside);
+        const bool done = follow(first, t, may_cut, inside);
         inside = !inside;
         return done;
     }
     const bool settles = n.question == SolidNode::kUnite;
-    if (may_cut && examine(node + n.low, t) == (settles ? Side::inside : Side::outside))
-        return follow(node + n.low, t, may_cut, inside);
+    if (may_cut && examine(second, t) == (settles ? Side::inside : Side::outside))
+        return follow(second, t, may_cut, inside);
     const std::size_t before = reached_.size();
-    if (!follow(node + 1, t, may_cut, inside)) return false;
+    if (!follow(first, t, may_cut, inside)) return false;
     if (inside == settles) return true;
     const std::size_t between = reached_.size();
-    if (!follow(node + n.low, t, may_cut, inside)) return false;
+    if (!follow(second, t, may_cut, inside)) return false;
     if (inside == settles)
         reached_.erase(reached_.begin() + static_cast<std::ptrdiff_t>(before),
                        reached_.begin() + static_cast<std::ptrdiff_t>(between));

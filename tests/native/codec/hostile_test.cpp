@@ -2,6 +2,7 @@
 // soon, and within the memory that its size allows.
 #include "codec/counting_allocator.h"
 #include "codec/random_model.h"
+#include "combinations.h"
 #include "pfgeom/base/random.h"
 #include "pfgeom/codec/byte_writer.h"
 #include "pfgeom/codec/codec.h"
@@ -68,7 +69,8 @@ Model with_tree(int depth) {
 std::vector<Bytes> small_files() {
     return {encode(ball()),           encode(with_hierarchy(3)),
             encode(with_mesh_part()), encode(with_curved_part()),
-            encode(with_tree(4)),     encode(test::with_placements(ball(), 3))};
+            encode(with_tree(4)),     encode(test::with_placements(ball(), 3)),
+            encode(ball() - transformed(with_tree(3), Affine{}))};
 }
 
 Bytes flipped(Bytes bytes, std::size_t bit) {

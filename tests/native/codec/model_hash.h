@@ -78,9 +78,14 @@ class ModelHash {
         add(p.metric == Metric::rms), add(p.tolerance), add(p.bound_mesh), add(p.certified), add(p.rms);
         add(p.bound_functions), add(p.functions_certified);
     }
+    void add(const Affine& a) { add(a.rows), add(a.translation); }
+    void add(const Operand& o) { add(o.objects), add(o.diagonal), add(o.promise); }
+    void add(const CombinationStep& s) { add(static_cast<std::uint8_t>(s.kind)), add(s.row); }
+    void add(const Combination& c) { add(c.operands), add(c.transforms), add(c.steps); }
     void add(const Model& m) {
         add(m.functions), add(m.objects), add(m.diagonal), add(m.promise);
         add(m.names), add(m.world_transform), add(m.face_groups);
+        if (!m.combination.empty()) add(m.combination);
     }
 
   private:
