@@ -58,7 +58,9 @@ std::string expression_of(const Combination& c) {
         } else if (step.kind == Kind::transform) {
             stack.back() = "T" + std::to_string(step.row) + "(" + stack.back() + ")";
         } else {
-            const std::string sign = step.kind == Kind::unite ? "|" : step.kind == Kind::intersect ? "&" : "-";
+            const std::string sign = step.kind == Kind::unite       ? "|"
+                                     : step.kind == Kind::intersect ? "&"
+                                                                    : "-";
             const std::string b = std::move(stack.back());
             stack.pop_back();
             stack.back() = "(" + stack.back() + " " + sign + " " + b + ")";

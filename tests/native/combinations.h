@@ -18,7 +18,8 @@ inline Model mesh_ball() {
     MeshPart part;
     part.step_code = -80;
     for (const Vec3& v : mesh.vertices)
-        part.positions.push_back({static_cast<std::int32_t>(v.x * 1024), static_cast<std::int32_t>(v.y * 1024),
+        part.positions.push_back({static_cast<std::int32_t>(v.x * 1024),
+                                  static_cast<std::int32_t>(v.y * 1024),
                                   static_cast<std::int32_t>(v.z * 1024)});
     part.faces = mesh.faces;
     model.objects[0].shape = std::move(part);

@@ -20,7 +20,8 @@ void finish(Model& model, double least_diagonal) {
     if (const std::string flaw = find_flaw(model); !flaw.empty()) throw InvalidInput(flaw);
     model.promise = promise_of(model.combination, combination_tree(model));
     const Box box = ModelField(model).bounds();
-    const double diagonal = box.lo.x <= box.hi.x && box.lo.y <= box.hi.y && box.lo.z <= box.hi.z ? box.diagonal() : 0;
+    const double diagonal =
+        box.lo.x <= box.hi.x && box.lo.y <= box.hi.y && box.lo.z <= box.hi.z ? box.diagonal() : 0;
     model.diagonal = diagonal > 0 ? diagonal : least_diagonal;
 }
 

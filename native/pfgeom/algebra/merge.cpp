@@ -25,7 +25,8 @@ void for_each_function(Shape& shape, Visit visit) {
 
 class Merger {
   public:
-    Merger(const Model& model, Model& all) : model_(model), all_(all), function_(model.functions.size(), -1) {}
+    Merger(const Model& model, Model& all)
+        : model_(model), all_(all), function_(model.functions.size(), -1) {}
 
     void run() {
         const Combination own = combination_of(model_);

@@ -5,8 +5,8 @@
 
 namespace pfgeom {
 
-/// Appends the model's steps to those of `all`, its operands as far as they are not there yet, and the functions
-/// that these name. A model without a combination is one operand.
+/// Appends the model's steps to those of `all`, its operands as far as they are not there yet, and the
+/// functions that these name. A model without a combination is one operand.
 void append_operands(const Model& model, Model& all);
 
 }  // namespace pfgeom

@@ -29,8 +29,8 @@ enum class SectionId : std::uint32_t {
     combination = 5,
 };
 
-/// Known to this reader, and then with this bit: a combination changes what the objects mean, so that a reader
-/// that does not know it must refuse the file.
+/// Known to this reader, and then with this bit: a combination changes what the objects mean, so that a
+/// reader that does not know it must refuse the file.
 constexpr bool is_known(std::uint64_t id) {
     return (id >= 1 && id <= 3) || id == 5;
 }

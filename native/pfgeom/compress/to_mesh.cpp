@@ -183,8 +183,8 @@ Extremes extremes_of(const Model& model, const std::vector<CombinationNode>& tre
     return least;
 }
 
-// One cube for all. Without a tolerance the finest of the objects' chords serves; cells may be as fine as each
-// object's own would be.
+// One cube for all. Without a tolerance the finest of the objects' chords serves; cells may be as fine as
+// each object's own would be.
 TriangleMesh mesh_of_combination(const Model& model, const std::vector<CombinationNode>& tree,
                                  const MeshOptions& options, const Task& task) {
     const Box box = ModelField(model).bounds();

@@ -32,8 +32,8 @@ double DistanceField::value_and_gradient(const Vec3& p, Vec3& gradient) const {
     const bool inside = std::abs(bvh_.winding_number(p)) > 0.5;
     const Vec3 away = normalized(p - c.point);
     gradient = c.squared_distance <= near_ && c.face >= 0 ? inwards_[static_cast<std::size_t>(c.face)]
-               : inside                                  ? away
-                                                         : -away;
+               : inside                                   ? away
+                                                          : -away;
     return inside ? d : -d;
 }
 

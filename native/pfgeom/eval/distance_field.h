@@ -8,8 +8,8 @@
 
 namespace pfgeom {
 
-/// Inside is where the mesh winds around a point, in whichever direction. The gradient points along the line to
-/// the closest point; on the surface, where that says nothing, across the face.
+/// Inside is where the mesh winds around a point, in whichever direction. The gradient points along the line
+/// to the closest point; on the surface, where that says nothing, across the face.
 class DistanceField final : public ScalarField {
   public:
     explicit DistanceField(const TriangleMesh& mesh, const Task& task = {});

@@ -41,7 +41,7 @@ struct ModelField::Part {
     Frame frame;
     std::vector<Similarity> copies;
     std::int32_t cavity_of = -1;
-    std::unique_ptr<ScalarField> solid;  // in the frame's cube, which holds it
+    std::unique_ptr<ScalarField> solid;     // in the frame's cube, which holds it
     std::optional<DistanceField> distance;  // a mesh part's, in the world
     Box box;
 
@@ -194,8 +194,8 @@ Jet ModelField::operand_jet(std::int32_t first, std::int32_t last, const Vec3& p
     return best;
 }
 
-// Max, min and min with the negative; what cannot matter is not asked. Recursion as deep as the combination, at
-// most Combination::kMostDepth.
+// Max, min and min with the negative; what cannot matter is not asked. Recursion as deep as the combination,
+// at most Combination::kMostDepth.
 Jet ModelField::jet(std::int32_t index, const Vec3& p) const {
     const Node& node = node_at(index);
     const CombinationNode& what = node.what;

@@ -8,8 +8,8 @@ namespace {
 
 // Entries below this leave room for products of all that a file may hold.
 constexpr double kMostEntry = 0x1p60;
-// Product of the stretches of a map and its inverse beyond which a shape is flat: values of functions then have
-// some ten digits left.
+// Product of the stretches of a map and its inverse beyond which a shape is flat: values of functions then
+// have some ten digits left.
 constexpr double kMostFlat = 1e6;
 
 std::array<Vec3, 3> columns_of(const std::array<Vec3, 3>& r) {
@@ -36,11 +36,13 @@ Affine affine_of(const Frame& frame) {
 
 std::optional<Similarity> similarity_of(const Affine& map) {
     constexpr double kRounding = 1e-9;
-    const double square = (squared_norm(map.rows[0]) + squared_norm(map.rows[1]) + squared_norm(map.rows[2])) / 3;
+    const double square =
+        (squared_norm(map.rows[0]) + squared_norm(map.rows[1]) + squared_norm(map.rows[2])) / 3;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k <= i; ++k) {
             const double expected = i == k ? square : 0;
-            if (!(std::abs(dot(map.rows[i], map.rows[k]) - expected) <= kRounding * square)) return std::nullopt;
+            if (!(std::abs(dot(map.rows[i], map.rows[k]) - expected) <= kRounding * square))
+                return std::nullopt;
         }
     }
     Similarity similarity;
@@ -71,8 +73,8 @@ double most_stretch(const Affine& map) {
     const std::array<Vec3, 3> c = columns_of(map.rows);
     double most = 0;
     for (const Vec3& column : c)
-        most = std::max(most, (std::abs(dot(column, c[0])) + std::abs(dot(column, c[1]))) +
-                                  std::abs(dot(column, c[2])));
+        most = std::max(
+            most, (std::abs(dot(column, c[0])) + std::abs(dot(column, c[1]))) + std::abs(dot(column, c[2])));
     return std::sqrt(most);
 }
 

@@ -38,8 +38,8 @@ Affine composed(const Affine& outer, const Affine& inner);
 /// By cofactors: of a rotation as exact as the rotation is orthogonal, of an integer one exact.
 Affine inverse_of(const Affine& map);
 
-/// The most that a length grows by: of a similarity its scale, else up to a factor of √3 more. (The largest sum
-/// of a row of |MᵀM|.)
+/// The most that a length grows by: of a similarity its scale, else up to a factor of √3 more. (The largest
+/// sum of a row of |MᵀM|.)
 double most_stretch(const Affine& map);
 
 /// What is wrong, as a sentence; empty if nothing is. Numbers are bounded, and what is flattened to less than

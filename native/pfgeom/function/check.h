@@ -20,8 +20,8 @@ std::string find_flaw(const SetTree& tree);
 /// Of a promise, and of the diagonal that stands beside it.
 std::string find_flaw(const Promise& promise, double diagonal);
 
-/// Of the model's combination: operands that are all used, in order, and cover the objects; steps that leave one
-/// result; transforms that can be inverted; no sheet in a set operation (function/combination.cpp).
+/// Of the model's combination: operands that are all used, in order, and cover the objects; steps that leave
+/// one result; transforms that can be inverted; no sheet in a set operation (function/combination.cpp).
 std::string find_combination_flaw(const Model& model);
 
 /// Well-formed UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.

@@ -38,7 +38,8 @@ class Checker {
     std::string flaw_of_operands() {
         std::size_t object = 0;
         for (const Operand& operand : c_.operands) {
-            if (operand.objects < 1 || model_.objects.size() - object < static_cast<std::size_t>(operand.objects))
+            if (operand.objects < 1 ||
+                model_.objects.size() - object < static_cast<std::size_t>(operand.objects))
                 return "an operand has no objects, or more than there are";
             if (std::string flaw = find_flaw(operand.promise, operand.diagonal); !flaw.empty())
                 return "an operand: " + flaw;
@@ -82,7 +83,7 @@ class Checker {
 
     const Model& model_;
     const Combination& c_;
-    std::vector<bool> open_;  // of each operand
+    std::vector<bool> open_;                     // of each operand
     std::size_t operands_ = 0, transforms_ = 0;  // used so far
     std::vector<Term> stack_;
 };

@@ -20,8 +20,8 @@ using Kind = CombinationStep::Kind;
 
 // Of the solid; some 50 bytes each with what refers to them.
 constexpr std::size_t kMostNodes = 1 << 22;
-// Cells in which a field may be zero are at most this share of what it fills, as those of polygonize.cpp at its
-// default least depth.
+// Cells in which a field may be zero are at most this share of what it fills, as those of polygonize.cpp at
+// its default least depth.
 constexpr double kLargestCell = 1.0 / 16;
 // Curved faces are divided as for values at points (eval/model_field.cpp), so that both have the same inside.
 constexpr double kChordShare = 0.25;
@@ -110,8 +110,8 @@ void Builder::add_operand(const CombinationNode& operand) {
     add_union(0, outer.size(), [&](std::size_t i) { add_object(outer[i], operand); });
 }
 
-// Without its cavities, in the order in which ModelField takes them out: those of a cavity count if they stand
-// behind it.
+// Without its cavities, in the order in which ModelField takes them out: those of a cavity count if they
+// stand behind it.
 void Builder::add_object(std::int32_t object, const CombinationNode& operand) {
     task_.check();
     std::vector<std::int32_t> hollows;
@@ -131,8 +131,7 @@ void Builder::add_copies(std::int32_t object, const CombinationNode& operand) {
     const Affine own = operand.moved ? composed(inverse_of(operand.place), world_) : world_;
     add_union(0, copies.size(), [&](std::size_t i) {
         const bool moved = !(copies[i] == Similarity{});
-        add_shape(object, operand.diagonal,
-                  moved ? composed(inverse_of(affine_of(copies[i])), own) : own);
+        add_shape(object, operand.diagonal, moved ? composed(inverse_of(affine_of(copies[i])), own) : own);
     });
 }
 
@@ -220,7 +219,8 @@ void Builder::add_mesh(std::int32_t object, double diagonal, const Affine& back)
     auto& mesh = meshes_[static_cast<std::size_t>(object)];
     if (!mesh) {
         const Object& o = model_.objects[static_cast<std::size_t>(object)];
-        mesh = std::make_shared<DistanceField>(mesh_of(o, {.chord = kChordShare * chord_of(o, diagonal)}), task_);
+        mesh = std::make_shared<DistanceField>(mesh_of(o, {.chord = kChordShare * chord_of(o, diagonal)}),
+                                               task_);
     }
     const Vec3 extent = mesh->bounds().extent();
     const double size = std::max({extent.x, extent.y, extent.z});

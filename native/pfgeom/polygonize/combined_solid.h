@@ -7,9 +7,9 @@
 
 namespace pfgeom {
 
-/// In the coordinates of the frame's cube. Quadrics stay quadrics; functions with perturbations and mesh parts
-/// become fields. Throws InvalidInput if an object is a sheet, and LimitExceeded where copies and shared parts of
-/// expressions add up to too much.
+/// In the coordinates of the frame's cube. Quadrics stay quadrics; functions with perturbations and mesh
+/// parts become fields. Throws InvalidInput if an object is a sheet, and LimitExceeded where copies and
+/// shared parts of expressions add up to too much.
 CutSolid combined_solid(const Model& model, const Frame& frame, const Task& task = {});
 
 }  // namespace pfgeom

@@ -178,8 +178,8 @@ bool Cutting::advance(Tetrahedron& t, bool may_cut) {
 }
 
 // Follows the answers down, to leaves that go to reached_; `node` is then where the way ended. False where a
-// question with both answers matters and has been given a cut: pieces go on from there, since an answer that did
-// not matter stays given.
+// question with both answers matters and has been given a cut: pieces go on from there, since an answer that
+// did not matter stays given.
 bool Cutting::follow(std::int32_t& node, const Tetrahedron& t, bool may_cut, bool& inside) {
     for (;;) {
         const OpenNode n = cells_.open[node];
@@ -278,8 +278,7 @@ bool Cutting::high_at_centre(const Tetrahedron& t, std::int32_t question) const 
 // What the subtree says in the tetrahedron, going by its corners.
 Side Cutting::examine(std::int32_t node, const Tetrahedron& t) {
     const OpenNode n = cells_.open[node];
-    if (n.question == SolidNode::kLeaf)
-        return solid_.whole()[n.low].inside ? Side::inside : Side::outside;
+    if (n.question == SolidNode::kLeaf) return solid_.whole()[n.low].inside ? Side::inside : Side::outside;
     if (n.question < 0) return examine_operation(node, t);
     const Signs s = signs(t, n.question);
     if (s.high != s.low) return examine(node + (s.high ? 1 : n.low), t);

@@ -42,8 +42,8 @@ TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, c
 TriangleMesh polygonize(const CutSolid& solid, const PolygonizeOptions& options, const Task& task = {});
 
 /// The surface of a model's combination within the frame's cube, in the cube's coordinates: as of trees, with
-/// creases where the operands' surfaces cross. Creases of a smooth operand, of which mesh parts are, are met to
-/// within the tolerance only. Throws InvalidInput if an object is a sheet.
+/// creases where the operands' surfaces cross. Creases of a smooth operand, of which mesh parts are, are met
+/// to within the tolerance only. Throws InvalidInput if an object is a sheet.
 TriangleMesh polygonize_combination(const Model& model, const Frame& frame, const PolygonizeOptions& options,
                                     const Task& task = {});
 

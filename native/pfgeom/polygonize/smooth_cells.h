@@ -1,5 +1,5 @@
-// Questions that are fields, in the cells of the refinement: which have one answer there, and how flat their zero
-// sets are.
+// Questions that are fields, in the cells of the refinement: which have one answer there, and how flat their
+// zero sets are.
 #pragma once
 
 #include "pfgeom/base/vec.h"

@@ -104,7 +104,7 @@ class Refinement {
     const Task& task_;
     std::vector<double> rounding_;  // by question
     SmoothCells smooth_;
-    std::vector<OpenNode> open_;    // in the cells on the way to the one that is looked at
+    std::vector<OpenNode> open_;  // in the cells on the way to the one that is looked at
     std::size_t steps_ = 0;
     TreeCells out_;
     TetEdgeTable middles_;

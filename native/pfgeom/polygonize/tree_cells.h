@@ -15,8 +15,8 @@ namespace pfgeom {
 using Zeros = std::array<std::int32_t, 6>;
 constexpr Zeros kNoZeros{-1, -1, -1, -1, -1, -1};
 
-/// Of what is open in a cell: the solid without the questions that have one answer all over it. In the order of
-/// SolidNode.
+/// Of what is open in a cell: the solid without the questions that have one answer all over it. In the order
+/// of SolidNode.
 struct OpenNode {
     std::int32_t question = SolidNode::kLeaf;  ///< as SolidNode's
     std::int32_t low = 0;  ///< how far on the low child or second operand stands; of a leaf: its SolidNode
@@ -49,7 +49,6 @@ TreeCells cells_near_surface(const CutSolid& solid, const PolygonizeOptions& opt
 
 /// Cuts the cells by the questions until each ends in a leaf, its `node`. Vertices closer than `snap` to a
 /// question's zero set count as on it.
-void cut_cells(const CutSolid& solid, double snap, std::size_t max_cells, TreeCells& cells,
-               const Task& task);
+void cut_cells(const CutSolid& solid, double snap, std::size_t max_cells, TreeCells& cells, const Task& task);
 
 }  // namespace pfgeom

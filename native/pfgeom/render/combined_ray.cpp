@@ -8,8 +8,8 @@ namespace {
 
 using Kind = CombinationStep::Kind;
 
-// Crossings this close to one another, as a share of what the ray has come and of the size of the numbers, are
-// one: what two equal faces leave between them is nothing. Hits are exact to some 1e-12.
+// Crossings this close to one another, as a share of what the ray has come and of the size of the numbers,
+// are one: what two equal faces leave between them is nothing. Hits are exact to some 1e-12.
 constexpr double kTogether = 1e-9;
 
 }  // namespace
@@ -30,7 +30,8 @@ CombinedPieces::CombinedPieces(const Model& model, const std::vector<Combination
             }
             node.last = static_cast<std::int32_t>(outer_.size());
         } else {
-            nodes_[static_cast<std::size_t>(what.a)].parent = nodes_[static_cast<std::size_t>(what.b)].parent = at;
+            nodes_[static_cast<std::size_t>(what.a)].parent =
+                nodes_[static_cast<std::size_t>(what.b)].parent = at;
         }
         nodes_.push_back(node);
     }
@@ -63,8 +64,8 @@ class CombinedRay {
         crossing.piece = piece;
         crossing.hit = hit;
         const RayPiece& p = pieces_[static_cast<std::size_t>(piece)];
-        const bool begins = p.target->tells_sides() ? leaves(p, hit)
-                                                    : p.contains(ray_.at(from + (hit.t - from) / 2));
+        const bool begins =
+            p.target->tells_sides() ? leaves(p, hit) : p.contains(ray_.at(from + (hit.t - from) / 2));
         look_ahead(crossing);
         if (begins) turn(piece, 1);
         crossings_.push_back(crossing);
@@ -173,14 +174,16 @@ class CombinedRay {
                 scratch_[static_cast<std::size_t>(outer - n.first)] = 0;
         }
         for (std::int32_t i = n.first; i < n.last; ++i)
-            if (all_.outer_[static_cast<std::size_t>(i)] < 0 && scratch_[static_cast<std::size_t>(i - n.first)] != 0)
+            if (all_.outer_[static_cast<std::size_t>(i)] < 0 &&
+                scratch_[static_cast<std::size_t>(i - n.first)] != 0)
                 return true;
         return false;
     }
 
     bool in_operation(std::int32_t node) const {
         const CombinedPieces::Node& n = all_.nodes_[static_cast<std::size_t>(node)];
-        const bool a = inside_[static_cast<std::size_t>(n.a)] != 0, b = inside_[static_cast<std::size_t>(n.b)] != 0;
+        const bool a = inside_[static_cast<std::size_t>(n.a)] != 0,
+                   b = inside_[static_cast<std::size_t>(n.b)] != 0;
         return n.kind == Kind::unite ? a || b : n.kind == Kind::intersect ? a && b : a && !b;
     }
 

@@ -34,11 +34,11 @@ class CombinedPieces {
     };
     std::vector<Box> cover(std::span<const RayPiece> pieces, std::int32_t node) const;
 
-    std::vector<Node> nodes_;               // the root last
-    std::vector<std::int32_t> outer_;       // by slot: the slot that it is a cavity of, or -1
-    std::vector<std::int32_t> node_of_;     // by piece
-    std::vector<std::int32_t> slot_of_;     // by piece
-    std::vector<std::int32_t> object_of_;   // by slot
+    std::vector<Node> nodes_;              // the root last
+    std::vector<std::int32_t> outer_;      // by slot: the slot that it is a cavity of, or -1
+    std::vector<std::int32_t> node_of_;    // by piece
+    std::vector<std::int32_t> slot_of_;    // by piece
+    std::vector<std::int32_t> object_of_;  // by slot
 };
 
 }  // namespace pfgeom

@@ -14,9 +14,9 @@ constexpr double kChord = 1e-5, kChordShare = 0.25;
 }  // namespace
 
 RayMesh::RayMesh(const Object& object, double diagonal, const Task& task)
-    : RayMesh(mesh_of(object,
-                      {.chord = std::min(kChord * diagonal, kChordShare * chord_of(object, diagonal))}),
-              task) {}
+    : RayMesh(
+          mesh_of(object, {.chord = std::min(kChord * diagonal, kChordShare * chord_of(object, diagonal))}),
+          task) {}
 
 RayMesh::RayMesh(const TriangleMesh& mesh, const Task& task) : bvh_(mesh, task) {
     const auto vertex = [&mesh](std::int32_t i) { return mesh.vertices[static_cast<std::size_t>(i)]; };

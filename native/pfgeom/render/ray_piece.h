@@ -29,8 +29,9 @@ template <class Map>
 Box box_of_image(const Box& box, const Map& map) {
     Box all;
     for (unsigned corner = 0; corner < 8; ++corner) {
-        all.grow(map.apply({(corner & 1U) != 0 ? box.hi.x : box.lo.x, (corner & 2U) != 0 ? box.hi.y : box.lo.y,
-                            (corner & 4U) != 0 ? box.hi.z : box.lo.z}));
+        all.grow(
+            map.apply({(corner & 1U) != 0 ? box.hi.x : box.lo.x, (corner & 2U) != 0 ? box.hi.y : box.lo.y,
+                       (corner & 4U) != 0 ? box.hi.z : box.lo.z}));
     }
     return all;
 }

@@ -23,7 +23,8 @@ std::vector<Vec3> random_points(std::uint64_t seed, int n) {
     Random random(seed);
     std::vector<Vec3> points;
     for (int i = 0; i < n; ++i)
-        points.push_back({test::between(random, -2, 2), test::between(random, -2, 2), test::between(random, -2, 2)});
+        points.push_back(
+            {test::between(random, -2, 2), test::between(random, -2, 2), test::between(random, -2, 2)});
     return points;
 }
 
@@ -195,7 +196,9 @@ TEST(Algebra, RaysMeetTheSurfaceOfTheResult) {
         const RayScene scene(model);
         Random random(seed + 100);
         for (int i = 0; i < 300; ++i) {
-            const auto at = [&] { return Vec3{test::between(random, -3, 3), test::between(random, -3, 3), 3.0}; };
+            const auto at = [&] {
+                return Vec3{test::between(random, -3, 3), test::between(random, -3, 3), 3.0};
+            };
             const Vec3 from = at(), to = -at();
             const Ray ray{from, to - from};
             const SurfaceHit hit = scene.first_hit(ray);
@@ -222,7 +225,8 @@ TEST(Algebra, WhatIsTakenFromItselfIsNothing) {
     EXPECT_TRUE(ModelField(nothing).value({0.1, 0, 0}) < 0);
 }
 
-// --- flaws ---------------------------------------------------------------------------------------------------
+// --- flaws
+// ---------------------------------------------------------------------------------------------------
 
 std::string flaw(void (*harm)(Combination&)) {
     Model model = ball() | test::tree_model(1);
@@ -245,11 +249,12 @@ TEST(CombinationFlaw, IsNamed) {
     EXPECT_NE(flaw([](Combination& c) { c.transforms.emplace_back(); }), "");
     EXPECT_NE(flaw([](Combination& c) { c.steps.push_back({Kind::transform, 0}); }), "");
     EXPECT_NE(flaw([](Combination& c) {
-        for (int i = 0; i < 600; ++i) {
-            c.steps.push_back({Kind::operand, 0});
-            c.steps.push_back({Kind::unite, -1});
-        }
-    }).find("512 deep"), std::string::npos);
+                  for (int i = 0; i < 600; ++i) {
+                      c.steps.push_back({Kind::operand, 0});
+                      c.steps.push_back({Kind::unite, -1});
+                  }
+              }).find("512 deep"),
+              std::string::npos);
 }
 
 }  // namespace

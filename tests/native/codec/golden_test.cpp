@@ -139,8 +139,8 @@ TEST(Golden, NoFlippedBitAndNoPrefixPasses) {
     }
 }
 
-// Makes golden files of version 2, or of combinations: PFGEOM_NEW_GOLDENS names their folder. Files that lie there already
-// are taken into the manifest too. Never to be used for a version that was released.
+// Makes golden files of version 2, or of combinations: PFGEOM_NEW_GOLDENS names their folder. Files that lie
+// there already are taken into the manifest too. Never to be used for a version that was released.
 TEST(Golden, Make) {
     const char* folder = std::getenv("PFGEOM_NEW_GOLDENS");
     if (folder == nullptr) GTEST_SKIP() << "only on demand";

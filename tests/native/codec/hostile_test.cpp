@@ -67,9 +67,12 @@ Model with_tree(int depth) {
 }
 
 std::vector<Bytes> small_files() {
-    return {encode(ball()),           encode(with_hierarchy(3)),
-            encode(with_mesh_part()), encode(with_curved_part()),
-            encode(with_tree(4)),     encode(test::with_placements(ball(), 3)),
+    return {encode(ball()),
+            encode(with_hierarchy(3)),
+            encode(with_mesh_part()),
+            encode(with_curved_part()),
+            encode(with_tree(4)),
+            encode(test::with_placements(ball(), 3)),
             encode(ball() - transformed(with_tree(3), Affine{}))};
 }
 
