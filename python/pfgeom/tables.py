@@ -174,7 +174,9 @@ def _combination(f: dict[str, Any]) -> list[Row]:
     if not f["combination"]:
         return []
     operands = f["combination"]["operands"]
-    parts = ", ".join(f"{i}: objects {low} to {high - 1}" for i, (low, high) in enumerate(o["objects"] for o in operands))
+    parts = ", ".join(
+        f"{i}: objects {low} to {high - 1}" for i, (low, high) in enumerate(o["objects"] for o in operands)
+    )
     return [("operands", f"{len(operands):,}", parts), ("combination", "", f["combination"]["expression"])]
 
 

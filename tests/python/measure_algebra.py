@@ -1,6 +1,6 @@
 """Acceptance of set operations: random pairs of files, point by point, and again after writing and reading.
 
-    python tests/python/measure_algebra.py A.pfg B.pfg ... --pairs 50 --points 1000000
+python tests/python/measure_algebra.py A.pfg B.pfg ... --pairs 50 --points 1000000
 """
 
 from __future__ import annotations
@@ -55,7 +55,10 @@ def main() -> None:
         kept += again.to_bytes() == model.to_bytes()
         size += model.nbytes - a.nbytes - b.nbytes
     print(f"{args.pairs} pairs, {points:,} points, {wrong} differ; {kept} files the same when read and written")
-    print(f"bytes beside those of the operands' files: {size / args.pairs:.1f} a pair; {time.process_time() - start:.0f} CPU s")
+    print(
+        f"bytes beside those of the operands' files: {size / args.pairs:.1f} a pair; "
+        f"{time.process_time() - start:.0f} CPU s"
+    )
 
 
 if __name__ == "__main__":

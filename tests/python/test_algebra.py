@@ -82,7 +82,12 @@ def test_open_surfaces_and_bad_matrices_are_refused(sphere_model):
 def test_command_line(command_line, tmp_path, sphere_model):
     a, b, c = (str(tmp_path / f"{name}.pfg") for name in "abc")
     sphere_model.save(a)
-    assert command_line("transform", a, "-o", b, "--scale", "0.5", "--rotate", "0", "0", "1", "90", "--move", "1", "0", "0").returncode == 0
+    assert (
+        command_line(
+            "transform", a, "-o", b, "--scale", "0.5", "--rotate", "0", "0", "1", "90", "--move", "1", "0", "0"
+        ).returncode
+        == 0
+    )
     assert command_line("combine", a, "difference", b, "-o", c).returncode == 0
     figures = json.loads(command_line("info", c, "--json").stdout)
     assert figures["combination"]["expression"] == "(0 - T0(0))"
