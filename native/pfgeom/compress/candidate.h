@@ -9,6 +9,7 @@
 #include "pfgeom/mesh/prepare.h"
 #include "pfgeom/report/deviation.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,21 +43,23 @@ struct Outcome {
 std::optional<Outcome> try_quadric(const Goal& goal, const Task& task);
 /// One quadric cut by another, for an island with a border.
 std::optional<Outcome> try_sheet(const Goal& goal, const Task& task);
+/// How many bytes a tree may take that takes `bytes` before it is mended, which only makes it larger.
+using TreeLimit = std::function<std::size_t(std::size_t bytes)>;
 /// A set-operation tree over quadrics, for a closed island that is made of them. Gives up when it needs more
 /// than `most_bytes`.
-std::optional<Outcome> try_tree(const Goal& goal, std::size_t most_bytes, const Task& task);
+std::optional<Outcome> try_tree(const Goal& goal, const TreeLimit& most_bytes, const Task& task);
 /// Base quadric + hierarchy of perturbations, for a closed island. Gives up when it needs more than
 /// `most_bytes`.
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
-/// What the simplified and coded mesh would take, at a small part of the work.
+/// What the simplified and coded mesh would take with flat faces, at a small part of the work.
 struct MeshEstimate {
     std::size_t least = 0;   ///< hardly ever fewer bytes than this where the shape is made of quadrics
     std::size_t likely = 0;  ///< hardly ever more than this
 };
 MeshEstimate estimate_mesh(const Goal& goal, const Task& task);
 
-/// Simplified and coded mesh: any shape; always holds.
-Outcome try_mesh(const Goal& goal, const Task& task);
+/// Simplified and coded mesh, its faces flat or curved: any shape; always holds.
+Outcome try_mesh(const Goal& goal, const MeshEstimate& estimate, const Task& task);
 
 /// The cheapest candidate that holds, for an oriented island that is closed, or a manifold with a border.
 /// Nothing: it is for a mesh part.

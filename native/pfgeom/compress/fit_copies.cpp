@@ -78,9 +78,15 @@ class CopiesFit {
         const Bvh bvh(pattern_);
         const Goal goal = goal_for(pattern_, bvh, (1 - share) * goal_.tolerance / largest);
         std::optional<Outcome> outcome = fit_island(first(), goal, task_);
-        if (!outcome) outcome = try_mesh(goal, task_);
+        if (!outcome) outcome = try_mesh(goal, estimate_mesh(goal, task_), task_);
         if (!outcome->holds) return false;
         of_pattern_ = *std::move(outcome);
+        alone_ = of_pattern_.bytes;
+        // One quadric may hold with all of the tolerance where it does not with what placements leave of it.
+        if (first().closed && first().oriented && of_pattern_.candidate != "quadric") {
+            const auto whole = try_quadric(goal_for(pattern_, bvh, goal_.tolerance), task_);
+            if (whole) alone_ = std::min(alone_, whole->bytes);
+        }
         return true;
     }
 
@@ -119,11 +125,11 @@ class CopiesFit {
         return model_of(goal_for(pattern_, none, goal_.tolerance), result_.outcome);
     }
 
-    // Against as many patterns one by one. Functions of parts that stand askew have more integers: planes
+    // Against as many islands one by one. Functions of parts that stand askew have more integers: planes
     // four instead of two, cylinders ten instead of four or five.
     bool pays() {
         result_.outcome.bytes = encode(model_of_copies()).size();
-        const std::size_t one = of_pattern_.bytes - std::min(of_pattern_.bytes, kHead);
+        const std::size_t one = alone_ - std::min(alone_, kHead);
         const std::size_t more = of_pattern_.candidate == "tree" && stand_askew() ? 2 : 1;
         const std::size_t single = kHead + group_.size() * more * one;
         return result_.outcome.bytes + kLeastGain < single &&
@@ -233,6 +239,7 @@ class CopiesFit {
     TriangleMesh pattern_;
     std::vector<Similarity> places_;  // of the pattern, as exactly as they are known
     Outcome of_pattern_;
+    std::size_t alone_ = 0;  // bytes of an island by itself
     std::vector<int> missed_;
     FittedCopies result_;
     std::optional<FittedCopies> best_;

@@ -21,18 +21,24 @@ void take_cheaper(std::optional<Outcome> outcome, std::optional<Outcome>& best) 
     if (outcome && outcome->holds && (!best || outcome->bytes < best->bytes)) best = std::move(outcome);
 }
 
-// A tree comes first: where a shape is made of quadrics nothing else comes near, and neither needs to be made
-// for comparison. The estimate of the mesh says when that is so.
+// A tree is fitted first: where a shape is made of quadrics nothing else comes near, and neither needs to be
+// made for comparison. The estimate of the mesh says when that is so. Where it is not, the mesh is made
+// before the tree is mended and proved, which takes longest, and limits it (thingi-1706459 at 1e-3).
 std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
     const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
-    std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
+    std::optional<Outcome> plain;
+    const auto limit = [&](std::size_t bytes) {
+        if (!plain && kSure * bytes >= estimate.least) plain = try_mesh(goal, estimate, task);
+        return plain && plain->holds ? std::min(plain->bytes, estimate.likely) : estimate.likely;
+    };
+    std::optional<Outcome> best = try_tree(goal, limit, task);
     if (best && kSure * best->bytes < estimate.least && !all) return best;
-    Outcome plain = try_mesh(goal, task);
+    if (!plain) plain = try_mesh(goal, estimate, task);
     // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
     // None has beaten a tree.
-    if (all || (!best && !large) || !plain.holds) {
-        const std::size_t most = std::min(best ? best->bytes : plain.bytes, plain.bytes);
+    if (all || (!best && !large) || !plain->holds) {
+        const std::size_t most = std::min(best ? best->bytes : plain->bytes, plain->bytes);
         take_cheaper(try_hierarchy(goal, most, task), best);
     }
     take_cheaper(std::move(plain), best);
@@ -41,9 +47,11 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
 
 std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
-    std::optional<Outcome> best = try_tree(goal, estimate.likely, task);
+    const auto limit = [&](std::size_t) { return estimate.likely; };
+    std::optional<Outcome> best = try_tree(goal, limit, task);
     const bool far_below = best && best->bytes < estimate.least && goal.effort != Effort::best;
-    if (!far_below && goal.mesh.faces.size() <= kQuickMesh) take_cheaper(try_mesh(goal, task), best);
+    if (!far_below && goal.mesh.faces.size() <= kQuickMesh)
+        take_cheaper(try_mesh(goal, estimate, task), best);
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
     // search of that starts too fine.
     take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kNoLimit, task), best);

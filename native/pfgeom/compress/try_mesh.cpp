@@ -1,5 +1,4 @@
 #include "pfgeom/base/error.h"
-#include "pfgeom/base/parallel.h"
 #include "pfgeom/codec/mesh_part_codec.h"
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
@@ -113,14 +112,12 @@ Outcome flat_by_rms(const Goal& goal, const Task& task) {
     return found ? *std::move(found) : attempt(goal, 0, false, task);
 }
 
-// Both with all of the tolerance, side by side. With less of it flat faces only become more, so they are not
-// made unless curved ones do no better.
-Outcome best_by_max(const Goal& goal, const Task& task) {
-    std::array<Outcome, 2> whole;  // flat, curved
-    const Task alone = quiet(task, thread_count(task) > 1 ? 1 : task.threads);
-    parallel_chunks(2, 1, task,
-                    [&](std::size_t i, std::size_t) { whole[i] = attempt(goal, 1, i == 1, alone); });
-    auto& [flat, curved] = whole;
+// Flat faces are not made where curved ones take fewer bytes than flat ones hardly ever do. With less of the
+// tolerance either only becomes more, so that is not tried where the other does no worse with all of it.
+Outcome best_by_max(const Goal& goal, const MeshEstimate& estimate, const Task& task) {
+    Outcome curved = attempt(goal, 1, true, task);
+    if (curved.holds && curved.bytes < estimate.least) return curved;
+    Outcome flat = attempt(goal, 1, false, task);
     for (const double share : {0.96, 0.9}) {
         if (curved.holds || (flat.holds && curved.bytes >= flat.bytes)) break;
         curved = attempt(goal, share, true, task);
@@ -146,12 +143,12 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task) {
             static_cast<std::size_t>(kMostBytes * static_cast<double>(left[0]))};
 }
 
-Outcome try_mesh(const Goal& goal, const Task& task) {
+Outcome try_mesh(const Goal& goal, const MeshEstimate& estimate, const Task& task) {
     const bool by_max = goal.metric == Metric::max;
     const bool quick = by_max && goal.mesh.faces.size() <= kMostCurved;
     if (goal.effort == Effort::fast || (goal.effort == Effort::normal && !quick))
         return by_max ? flat_by_max(goal, task) : flat_by_rms(goal, task);
-    if (by_max) return best_by_max(goal, task);
+    if (by_max) return best_by_max(goal, estimate, task);
     Outcome flat = flat_by_rms(goal, task);
     std::optional<Outcome> curved = search_rms(goal, true, flat.bytes, task);
     return curved && curved->bytes < flat.bytes ? *std::move(curved) : flat;

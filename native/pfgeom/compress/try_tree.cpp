@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -61,7 +62,7 @@ TriangleMesh outwards_in_cube(const Goal& goal, const Frame& frame) {
 
 class TreeSearch {
   public:
-    TreeSearch(const Goal& goal, std::size_t most_bytes, const Task& task)
+    TreeSearch(const Goal& goal, const TreeLimit& most_bytes, const Task& task)
         : goal_(goal),
           most_bytes_(most_bytes),
           task_(task),
@@ -131,14 +132,21 @@ class TreeSearch {
         const double certified = tolerance / frame_.half();
         const std::size_t settings = goal_.effort == Effort::fast ? 1 : std::size(kShares);
         for (const auto& shares : {std::span(kShares), std::span(kOtherwise)}) {
-            if (auto found = smallest_of(shares.first(settings), share * certified, certified)) return found;
+            std::vector<TreeCandidate> trees = mended(shares.first(settings), share * certified, certified);
+            if (trees.empty()) continue;
+            const double least = least_bits(trees);
+            std::erase_if(trees, [](const TreeCandidate& c) { return c.proved == 0; });
+            const auto best =
+                std::ranges::min_element(trees, {}, [](const TreeCandidate& c) { return c.fit.bits; });
+            if (best != trees.end()) return std::move(*best);
+            if (least > most_bits(least)) break;  // what is too large is not so for lack of room at its seams
         }
         return {};
     }
 
-    // Of the settings, the certified tree with the fewest bits.
-    std::optional<TreeCandidate> smallest_of(std::span<const Shares> settings, double tolerance,
-                                             double certified) const {
+    // Of each setting a tree, certified or given up; none where one has too many regions.
+    std::vector<TreeCandidate> mended(std::span<const Shares> settings, double tolerance,
+                                      double certified) const {
         std::vector<TreeCandidate> fits;
         for (const Shares& shares : settings) {
             const TreeFitOptions options = options_for(shares, tolerance);
@@ -147,14 +155,22 @@ class TreeSearch {
             if (fits.back().fit.mostly_whole()) break;  // no seams that want other shares
         }
         mend(fits, certified);
-        std::erase_if(fits, [](const TreeCandidate& c) { return c.proved == 0; });
-        const auto best =
-            std::ranges::min_element(fits, {}, [](const TreeCandidate& c) { return c.fit.bits; });
-        return best == fits.end() ? std::nullopt : std::optional(std::move(*best));
+        return fits;
     }
 
     void mend(std::span<TreeCandidate> fits, double certified) const {
-        mend_trees(fits, target_, certified, 8.0 * static_cast<double>(most_bytes_), task_);
+        mend_trees(fits, target_, certified, most_bits(least_bits(fits)), task_);
+    }
+
+    static double least_bits(std::span<const TreeCandidate> fits) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const TreeCandidate& candidate : fits) least = std::min(least, candidate.fit.bits);
+        return least;
+    }
+
+    // For trees of which the smallest has so many.
+    double most_bits(double least) const {
+        return 8.0 * static_cast<double>(most_bytes_(static_cast<std::size_t>(least / 8)));
     }
 
     TreeFitOptions options_for(const Shares& shares, double tolerance) const {
@@ -165,7 +181,7 @@ class TreeSearch {
         options.quantise_share = shares.quantise;
         options.tube_share = shares.tube;
         options.askew = shares.askew;
-        options.most_regions = std::clamp<std::size_t>(most_bytes_ / kBytesOfRegion, 1, kMostRegions);
+        options.most_regions = std::clamp<std::size_t>(most_bytes_(0) / kBytesOfRegion, 1, kMostRegions);
         options.exact = target_.exact;
         return options;
     }
@@ -216,7 +232,7 @@ class TreeSearch {
     }
 
     const Goal& goal_;
-    std::size_t most_bytes_;
+    const TreeLimit& most_bytes_;
     const Task& task_;
     Frame frame_;
     TreeTarget target_;
@@ -224,7 +240,7 @@ class TreeSearch {
 
 }  // namespace
 
-std::optional<Outcome> try_tree(const Goal& goal, std::size_t most_bytes, const Task& task) {
+std::optional<Outcome> try_tree(const Goal& goal, const TreeLimit& most_bytes, const Task& task) {
     return TreeSearch(goal, most_bytes, task).run();
 }
 

@@ -1,5 +1,6 @@
 #include "pfgeom/fit/missed_points.h"
 
+#include "pfgeom/base/parallel.h"
 #include "pfgeom/fit/foot_point.h"
 #include "pfgeom/mesh/bvh.h"
 
@@ -16,33 +17,26 @@ constexpr int kParts = 4;
 // at, as shares of the limit and of the face's longest edge. The proof on the file's own bytes comes later.
 constexpr double kSlope = 0.7, kFinest = 0.1, kFinestPart = 1.0 / 64;
 
+constexpr std::size_t kChunk = 64;  // faces
+
 using Corners = std::array<Vec3, 3>;
 
-class Search {
+class CurvedSurface {
   public:
-    Search(const CollapseMesh& mesh, double limit, const Task& task)
+    CurvedSurface(const CollapseMesh& mesh, double limit, const Task& task)
         : mesh_(mesh), limit_(limit), left_(mesh.faces_left()), bvh_(divided(), task) {}
 
-    void look_along(const Corners& face, std::int32_t origin, std::vector<MissedPoint>& missed) {
-        const double longest =
-            std::sqrt(std::max({squared_norm(face[1] - face[0]), squared_norm(face[2] - face[1]),
-                                squared_norm(face[0] - face[2])}));
-        const double finest = std::max(kFinest * limit_, kFinestPart * longest);
-        open_.assign({face});
-        while (!open_.empty()) {
-            const auto [a, b, c] = open_.back();
-            open_.pop_back();
-            const Vec3 middle = (a + b + c) / 3;
-            const MissedPoint found = closest(middle, origin);
-            const double distance = std::sqrt(found.squared);
-            if (distance > limit_) missed.push_back(found);
-            const double reach = std::sqrt(
-                std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
-            if (reach < finest || distance + kSlope * reach <= limit_) continue;
-            const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
-            open_.insert(open_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        }
+    // From p, a point of the original's face `origin`; measured out if it is beyond the limit.
+    MissedPoint closest(const Vec3& p, std::int32_t origin, std::int32_t& hint) const {
+        const ClosestPoint found = bvh_.closest(p, std::numeric_limits<double>::infinity(), hint);
+        hint = found.face;
+        const std::size_t row = static_cast<std::size_t>(found.face / (kParts * kParts));
+        MissedPoint result{p, origin, left_[row], found.squared_distance};
+        if (result.squared > limit_ * limit_)
+            result.squared = std::min(result.squared, foot_point(p, surface(row)).squared);
+        return result;
     }
+    double limit() const { return limit_; }
 
   private:
     CurvedTriangle surface(std::size_t row) const {
@@ -71,20 +65,40 @@ class Search {
         return result;
     }
 
-    MissedPoint closest(const Vec3& p, std::int32_t origin) {
-        const ClosestPoint found = bvh_.closest(p, std::numeric_limits<double>::infinity(), hint_);
-        hint_ = found.face;
-        const std::size_t row = static_cast<std::size_t>(found.face / (kParts * kParts));
-        MissedPoint result{p, origin, left_[row], found.squared_distance};
-        if (result.squared > limit_ * limit_)
-            result.squared = std::min(result.squared, foot_point(p, surface(row)).squared);
-        return result;
-    }
-
     const CollapseMesh& mesh_;
     double limit_;
     std::vector<std::int32_t> left_;
     Bvh bvh_;
+};
+
+class Search {
+  public:
+    explicit Search(const CurvedSurface& surface) : surface_(surface), limit_(surface.limit()) {}
+
+    void look_along(const Corners& face, std::int32_t origin, std::vector<MissedPoint>& missed) {
+        const double longest =
+            std::sqrt(std::max({squared_norm(face[1] - face[0]), squared_norm(face[2] - face[1]),
+                                squared_norm(face[0] - face[2])}));
+        const double finest = std::max(kFinest * limit_, kFinestPart * longest);
+        open_.assign({face});
+        while (!open_.empty()) {
+            const auto [a, b, c] = open_.back();
+            open_.pop_back();
+            const Vec3 middle = (a + b + c) / 3;
+            const MissedPoint found = surface_.closest(middle, origin, hint_);
+            const double distance = std::sqrt(found.squared);
+            if (distance > limit_) missed.push_back(found);
+            const double reach = std::sqrt(
+                std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
+            if (reach < finest || distance + kSlope * reach <= limit_) continue;
+            const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
+            open_.insert(open_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+    }
+
+  private:
+    const CurvedSurface& surface_;
+    double limit_;
     std::int32_t hint_ = -1;
     std::vector<Corners> open_;
 };
@@ -93,15 +107,20 @@ class Search {
 
 std::vector<MissedPoint> missed_points(const TriangleMesh& original, const CollapseMesh& mesh, double limit,
                                        const Task& task) {
-    Search search(mesh, limit, task);
+    const CurvedSurface surface(mesh, limit, task);
+    std::vector<std::vector<MissedPoint>> of_chunks((original.faces.size() + kChunk - 1) / kChunk);
+    parallel_chunks(original.faces.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
+        Search search(surface);
+        for (std::size_t f = begin; f < end; ++f) {
+            Corners corners;
+            for (std::size_t k = 0; k < 3; ++k)
+                corners[k] = original.vertices[static_cast<std::size_t>(original.faces[f][k])];
+            search.look_along(corners, static_cast<std::int32_t>(f), of_chunks[begin / kChunk]);
+        }
+    });
     std::vector<MissedPoint> missed;
-    for (std::size_t f = 0; f < original.faces.size(); ++f) {
-        task.check();
-        Corners corners;
-        for (std::size_t k = 0; k < 3; ++k)
-            corners[k] = original.vertices[static_cast<std::size_t>(original.faces[f][k])];
-        search.look_along(corners, static_cast<std::int32_t>(f), missed);
-    }
+    for (const std::vector<MissedPoint>& found : of_chunks)
+        missed.insert(missed.end(), found.begin(), found.end());
     return missed;
 }
 
