@@ -136,6 +136,8 @@ py::tuple closest_on_model(const ModelPointer& handle, const Points& points, dou
     Job job(threads, std::move(progress), cancel);
     const std::vector<NearestPoint> found = job.run([=, rows = points_from(points)](const Task& task) {
         const RayScene& scene = handle->scene(part_of(task, 0, kPreparing));
+        if (!scene.keeps_distances())
+            throw InvalidInput("closest points of set operations and sheared models cannot be searched for");
         return closest_points(scene, rows, accuracy, part_of(task, kPreparing, 1));
     });
     std::vector<Vec3> places;

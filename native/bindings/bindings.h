@@ -11,6 +11,7 @@ void bind_errors(pybind11::module_& m);
 void bind_task(pybind11::module_& m);
 void bind_mesh(pybind11::module_& m);
 void bind_function(pybind11::module_& m);
+void bind_algebra(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
 void bind_compress(pybind11::module_& m);
 void bind_render(pybind11::module_& m);

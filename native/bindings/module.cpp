@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, m) {
     bind_mesh(m);
     bind_function(m);
     bind_model(m);
+    bind_algebra(m);
     bind_compress(m);
     bind_render(m);
     bind_report(m);

@@ -25,6 +25,8 @@ def build_parser() -> argparse.ArgumentParser:
     _add_compare(commands)
     _add_render(commands)
     _add_report(commands)
+    _add_combine(commands)
+    _add_transform(commands)
     return parser
 
 
@@ -123,6 +125,37 @@ def _add_report(commands: Any) -> None:
         help="for a mesh without its .pfg: allowed deviation, as a share of the diagonal (default 1e-3)",
     )  # fmt: skip
     _add_common(command)
+def _add_combine(commands: Any) -> None:
+    command = commands.add_parser("combine", help="union, intersection or difference of two .pfg files, as functions")
+    command.add_argument("a", metavar="A.pfg")
+    command.add_argument("operation", choices=("union", "intersection", "difference"))
+    command.add_argument("b", metavar="B.pfg")
+    _add_output(command)
+    _add_json(command)
+    command.add_argument("--quiet", action="store_true", help="no table")
+
+
+def _add_transform(commands: Any) -> None:
+    command = commands.add_parser(
+        "transform", help="a .pfg file moved, still as functions: mirrored, scaled, rotated and moved, in this order"
+    )
+    command.add_argument("input", metavar="IN.pfg")
+    _add_output(command)
+    command.add_argument("--mirror", choices=("x", "y", "z"), help="this coordinate becomes its negative")
+    command.add_argument("--scale", type=_positive, default=1.0, metavar="S")
+    command.add_argument(
+        "--rotate", type=float, nargs=4, metavar=("X", "Y", "Z", "DEG"), help="about an axis through the origin"
+    )
+    command.add_argument("--move", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z"))
+    command.add_argument(
+        "--matrix", type=float, nargs=12, metavar="M", help="instead of these: three rows of four numbers"
+    )
+    _add_json(command)
+    command.add_argument("--quiet", action="store_true", help="no table")
+
+
+def _add_output(command: argparse.ArgumentParser) -> None:
+    command.add_argument("-o", "--output", metavar="OUT.pfg", type=_path_ending(".pfg"), required=True)
 
 
 def _add_absolute(command: argparse.ArgumentParser) -> None:

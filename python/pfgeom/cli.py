@@ -1,4 +1,4 @@
-"""The command line: compress, decompress, info, compare, render, report.
+"""The command line: compress, decompress, info, compare, render, report, combine, transform.
 
 Exit codes: 0 done, 1 failed (one sentence on stderr), 2 wrong usage, 130 interrupted. Results go to stdout, as a
 table or with ``--json`` as one object; the progress bar goes to stderr, if that is a terminal.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import errno
+import math
 import os
 import sys
 import time
@@ -15,6 +16,9 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from . import tables
 from .arguments import build_parser
@@ -38,6 +42,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         "compare": run_compare,
         "render": run_render,
         "report": run_report,
+        "combine": run_combine,
+        "transform": run_transform,
     }
     try:
         commands[args.command](args)
@@ -150,6 +156,37 @@ def run_report(args: argparse.Namespace) -> None:
             args.output, args.mesh, args.model, tolerance=args.tolerance, threads=args.threads, progress=progress
         )  # fmt: skip
     _print(args, report_figures(args, time.perf_counter() - start), tables.reported)
+def run_combine(args: argparse.Namespace) -> None:
+    _check_target(args.output)
+    a, b = load(args.a), load(args.b)
+    model = {"union": a.__or__, "intersection": a.__and__, "difference": a.__sub__}[args.operation](b)
+    model.save(args.output)
+    _print(args, {"input": args.output, **model.info()}, tables.info)
+
+
+def run_transform(args: argparse.Namespace) -> None:
+    _check_target(args.output)
+    model = load(args.input).transformed(matrix_of(args))
+    model.save(args.output)
+    _print(args, {"input": args.output, **model.info()}, tables.info)
+
+
+def matrix_of(args: argparse.Namespace) -> NDArray[np.float64]:
+    """Mirrored, scaled, rotated and moved; or the matrix as it is given."""
+    if args.matrix:
+        return np.reshape(np.array(args.matrix), (3, 4))
+    turn = np.eye(3)
+    if args.rotate:
+        *axis, degrees = args.rotate
+        length = math.hypot(*axis)
+        if not length > 0:
+            raise ValueError("a rotation needs an axis")
+        x, y, z = (value / length for value in axis)
+        across = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        angle = math.radians(degrees)
+        turn = turn + math.sin(angle) * across + (1 - math.cos(angle)) * (across @ across)  # Rodrigues
+    sizes = [-args.scale if name == args.mirror else args.scale for name in "xyz"]
+    return np.column_stack([turn * sizes, args.move])
 
 
 # --- figures: what --json prints and the tables show -----------------------------------------------------------

@@ -470,6 +470,64 @@ class Model:
         names = [names] if isinstance(names, str) else list(names)
         return Model(self._core.placed(names, [value for row in matrix for value in row]), self._report)
 
+    # --- an algebra ----------------------------------------------------------------------------------------
+
+    def __or__(self, other: object) -> Model:
+        """Union: inside is what is inside of either. Its value is the larger of the two, exactly.
+
+        The operands keep their functions and frames, and no polygons are made. They must be closed: an open surface has
+        no inside. Names, labels and a place in the world that the operands do not share are dropped.
+
+        Raises
+        ------
+        ValueError
+            An operand has an open surface.
+        """
+        return self._combined(other, "union")
+
+    def __and__(self, other: object) -> Model:
+        """Intersection: inside is what is inside of both; the smaller value. As for the union."""
+        return self._combined(other, "intersection")
+
+    def __sub__(self, other: object) -> Model:
+        """Difference: this without the other, the smaller of its value and the other's negative. As for the union."""
+        return self._combined(other, "difference")
+
+    def _combined(self, other: object, operation: str) -> Model:
+        if not isinstance(other, Model):
+            return NotImplemented
+        return Model(_core.combined(self._core, other._core, operation))
+
+    def transformed(self, matrix: ArrayLike) -> Model:
+        """The image of this model, still as functions: turned, moved, mirrored, scaled or sheared.
+
+        Its own bounds hold for the image, times what lengths grow by. Values are those at the points before, times the
+        least that lengths grow by.
+
+        Parameters
+        ----------
+        matrix : (4, 4) or (3, 4)
+            An affine map of this model's space that can be inverted; the last row of four is 0 0 0 1.
+
+        Raises
+        ------
+        ValueError
+            The matrix is not one, or flattens space.
+        """
+        rows = np.asarray(matrix, dtype=np.float64)
+        if rows.shape not in ((4, 4), (3, 4)) or (len(rows) == 4 and rows[3].tolist() != [0, 0, 0, 1]):
+            raise ValueError("a transform is a (3, 4) matrix, or (4, 4) with the last row 0 0 0 1")
+        return Model(_core.transformed(self._core, rows[:3].ravel().tolist()))
+
+    @cached_property
+    def combination(self) -> dict[str, Any] | None:
+        """What set operations and transforms this model is made by, or None.
+
+        ``expression``, such as ``"(0 | T0(1))"``; ``operands``, each with its range of `objects` and what it promised
+        alone; ``transforms``, as (4, 4) matrices.
+        """
+        return _core.combination(self._core)
+
     # --- what is known about it --------------------------------------------------------------------------
 
     @cached_property
@@ -560,6 +618,7 @@ class Model:
             "materials": list(self.material_names),
             "not_kept": list(NOT_KEPT),
             "objects": deepcopy(self.objects),
+            "combination": deepcopy(self.combination),
             "function_list": deepcopy(self.function_list),
             "sizes": self._core.sizes(),
         }

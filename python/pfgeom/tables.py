@@ -72,6 +72,7 @@ def info(f: dict[str, Any]) -> list[Row]:
             f"{len(f['objects']):,}",
             ", ".join(f"{kind}: {count:,}" for kind, count in kinds.items()),
         ),
+        *_combination(f),
         *_copies(f),
         *_quadrics(f),
         *_kinds(f),
@@ -191,6 +192,14 @@ def _materials(f: dict[str, Any]) -> list[Row]:
     more = len(names) - _NAMED
     listed = ", ".join(names[:_NAMED]) + (f" and {more:,} more" if more > 0 else "")
     return [("materials", f"{len(names):,}", listed)] if names else []
+def _combination(f: dict[str, Any]) -> list[Row]:
+    if not f["combination"]:
+        return []
+    operands = f["combination"]["operands"]
+    parts = ", ".join(
+        f"{i}: objects {low} to {high - 1}" for i, (low, high) in enumerate(o["objects"] for o in operands)
+    )
+    return [("operands", f"{len(operands):,}", parts), ("combination", "", f["combination"]["expression"])]
 
 
 def _promise(f: dict[str, Any]) -> list[Row]:
@@ -201,6 +210,7 @@ def _promise(f: dict[str, Any]) -> list[Row]:
         ("max", f["bound_mesh"], proof),
         ("rms", f["rms"], "two-sided, the worse direction"),
     ]
+    rows = [row for row in rows if row[1] > 0 or not f.get("combination")]  # of set operations they are not known
     if f["bound_functions"] > 0:
         proof = "certified" if f["functions_certified"] else "sampled"
         rows.append(("max of functions", f["bound_functions"], f"{proof}, whatever mesh is made of them"))

@@ -17,11 +17,6 @@ constexpr bool kVerifyChecksums = false;  // a fuzzer cannot guess them
 constexpr bool kVerifyChecksums = true;
 #endif
 
-bool is_known(std::uint64_t id) {
-    return id >= static_cast<std::uint64_t>(SectionId::names) &&
-           id <= static_cast<std::uint64_t>(SectionId::materials);
-}
-
 // Line ends translated, the top bit stripped, or Latin-1 taken for text and written as UTF-8.
 bool is_text_damage(std::span<const std::uint8_t> bytes) {
     constexpr std::array<std::array<std::uint8_t, 4>, 5> kDamaged{{{0xF5, 'p', '\n', 0},
@@ -56,7 +51,7 @@ FormatStatus read_sections(std::span<const std::uint8_t> bytes, Envelope& envelo
         last = id;
         const bool required = key % 2 != 0;
         if (is_known(id)) {
-            if (required) return FormatStatus::bad_section;
+            if (required != is_required(static_cast<SectionId>(id))) return FormatStatus::bad_section;
             envelope.sections.push_back({static_cast<SectionId>(id), content});
         } else if (required) {
             return FormatStatus::unknown_section;

@@ -27,7 +27,17 @@ enum class SectionId : std::uint32_t {
     world_transform = 2,
     face_groups = 3,
     materials = 4,
+    combination = 5,
 };
+
+/// Known to this reader, and then with this bit: a combination changes what the objects mean, so that a
+/// reader that does not know it must refuse the file.
+constexpr bool is_known(std::uint64_t id) {
+    return id >= 1 && id <= 5;
+}
+constexpr bool is_required(SectionId id) {
+    return id == SectionId::combination;
+}
 
 struct Section {
     SectionId id{};

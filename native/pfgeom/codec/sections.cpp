@@ -3,7 +3,9 @@
 #include "pfgeom/base/utf8.h"
 #include "pfgeom/codec/byte_reader.h"
 #include "pfgeom/codec/byte_writer.h"
+#include "pfgeom/codec/combination_codec.h"
 #include "pfgeom/codec/material_codec.h"
+#include "pfgeom/function/check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +99,8 @@ std::vector<Section> write_sections(const Model& model) {
         sections.push_back({SectionId::face_groups, false, write_face_groups(model.face_groups)});
     }
     if (!model.materials.empty()) sections.push_back({SectionId::materials, false, write_materials(model)});
+    if (!model.combination.empty())
+        sections.push_back({SectionId::combination, true, write_combination(model.combination)});
     return sections;
 }
 
@@ -115,6 +119,9 @@ FormatStatus read_sections(const Envelope& envelope, std::size_t memory, Model& 
                 break;
             case SectionId::materials:
                 status = read_materials(section.content, memory, model);
+                break;
+            case SectionId::combination:
+                status = read_combination(section.content, model.combination);
                 break;
         }
         if (status != FormatStatus::ok) return status;

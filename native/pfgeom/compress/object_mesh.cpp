@@ -19,57 +19,22 @@ constexpr double kSnapShare = 1.0 / 16;
 // Of the diagonal, where no tolerance was named.
 constexpr double kSnapOfDiagonal = 1e-4;
 
-constexpr int kLeastDepth = 3, kMostDepth = 10;
-
-// Depth at which cells of a cube of half edge `half` are no larger than `size`.
-int depth_for(double half, double size) {
-    int depth = kLeastDepth;
-    while (depth < 12 && std::ldexp(2 * half, -depth) > size) ++depth;
-    return depth;
-}
-
-double largest_scale(const Object& object) {
-    double largest = 0;
-    for (const Similarity& s : copies_of(object)) largest = std::max(largest, s.scale);
-    return largest;
-}
-
-double largest_half(const Model& model) {
-    double largest = 0;
-    for (const Object& o : model.objects) largest = std::max(largest, o.frame.half() * largest_scale(o));
-    return largest;
-}
-
-// What the pattern may miss so that none of its copies misses more.
-double chord_for(const Model& model, const Object& object, const MeshOptions& options) {
-    return options.tolerance ? *options.tolerance / largest_scale(object) : chord_of(model, object);
-}
-
-// The longest cell or edge of the pattern.
-double cell_for(const Model& model, const Object& object, const MeshOptions& options) {
-    return 2 * largest_half(model) / *options.resolution / largest_scale(object);
-}
-
-PolygonizeOptions polygonize_options(const Model& model, const Object& object, const MeshOptions& options) {
+PolygonizeOptions polygonize_options(const ObjectsToMesh& all, const Object& object) {
     PolygonizeOptions result;
     result.min_depth = kLeastDepth;
     result.max_depth = kMostDepth;
     const double half = object.frame.half();
-    if (options.resolution) {
-        result.min_depth = result.max_depth = depth_for(half, cell_for(model, object, options));
+    if (all.options.resolution) {
+        result.min_depth = result.max_depth = depth_for(half, all.cell_for(object));
     } else {
-        result.tolerance = chord_for(model, object, options) / half;
+        result.tolerance = all.chord_for(object) / half;
     }
     return result;
 }
 
-Fineness fineness_of(const Model& model, const Object& object, const MeshOptions& options) {
-    if (!options.resolution) return {.chord = chord_for(model, object, options)};
-    return {.chord = chord_of(model, object), .length = cell_for(model, object, options)};
-}
-
-void turn_faces(TriangleMesh& mesh) {
-    for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
+Fineness fineness_of(const ObjectsToMesh& all, const Object& object) {
+    if (!all.options.resolution) return {.chord = all.chord_for(object)};
+    return {.chord = chord_of(object, all.diagonal), .length = all.cell_for(object)};
 }
 
 TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const PolygonizeOptions& options,
@@ -83,12 +48,41 @@ TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const Polygon
 
 }  // namespace
 
+int depth_for(double half, double size) {
+    int depth = kLeastDepth;
+    while (depth < 12 && std::ldexp(2 * half, -depth) > size) ++depth;
+    return depth;
+}
+
+double largest_scale(const Object& object) {
+    double largest = 0;
+    for (const Similarity& s : copies_of(object)) largest = std::max(largest, s.scale);
+    return largest;
+}
+
+double ObjectsToMesh::largest_half() const {
+    double largest = 0;
+    for (const Object& o : list) largest = std::max(largest, o.frame.half() * largest_scale(o));
+    return largest;
+}
+
+double ObjectsToMesh::chord_for(const Object& object) const {
+    return options.tolerance ? *options.tolerance / largest_scale(object) : chord_of(object, diagonal);
+}
+
+double ObjectsToMesh::cell_for(const Object& object) const {
+    return 2 * largest_half() / *options.resolution / largest_scale(object);
+}
+
+void turn_faces(TriangleMesh& mesh) {
+    for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
+}
+
 // A complement fills the cube; its surface is that of its operand, with the faces turned.
-TriangleMesh mesh_in_place(const Model& model, const Object& object, const MeshOptions& options,
+TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const Object& object,
                            const Task& task) {
-    if (std::holds_alternative<MeshPart>(object.shape))
-        return mesh_of(object, fineness_of(model, object, options));
-    const PolygonizeOptions how = polygonize_options(model, object, options);
+    if (std::holds_alternative<MeshPart>(object.shape)) return mesh_of(object, fineness_of(all, object));
+    const PolygonizeOptions how = polygonize_options(all, object);
     TriangleMesh mesh;
     bool complement = false;
     if (const auto* solid = std::get_if<Solid>(&object.shape)) {

@@ -39,7 +39,7 @@ PaintFit::PaintFit(const Model& model, const Object& object, double tolerance, s
       materials_(materials),
       effort_(effort),
       task_(task),
-      mesh_(mesh_in_place(model, object, {}, quiet(task, task.threads))),
+      mesh_(mesh_in_place(model, {model.objects, model.diagonal}, object, quiet(task, task.threads))),
       bvh_(mesh_, task) {
     const auto* tree = std::get_if<SetTree>(&object.shape);
     if (tree != nullptr && !tree->quadrics.empty())

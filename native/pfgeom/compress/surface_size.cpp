@@ -39,13 +39,18 @@ SurfaceSize surface_size(const Model& model, double tolerance, const Task& task)
     if (!(tolerance > 0 && std::isfinite(tolerance)))
         throw InvalidInput("the tolerance must be a positive number");
     SurfaceSize size;
+    if (!model.combination.empty()) {
+        const TriangleMesh mesh = to_mesh(model, {tolerance, {}}, task);
+        return {surface_area(mesh), enclosed_volume(mesh)};
+    }
+    const ObjectsToMesh all{model.objects, model.diagonal, {tolerance, {}}};
     const auto count = static_cast<double>(model.objects.size());
     for (std::size_t i = 0; i < model.objects.size(); ++i) {
         const Object& object = model.objects[i];
         const auto at = static_cast<double>(i);
         const Task part = part_of(task, at / count, (at + 1) / count);
         part.report(0, "measure");
-        const TriangleMesh mesh = mesh_in_place(model, object, {tolerance, {}}, part);
+        const TriangleMesh mesh = mesh_in_place(model, all, object, part);
         const double area = surface_area(mesh), volume = enclosed_volume(mesh);
         for (const Similarity& s : copies_of(object)) {
             const double square = s.scale * s.scale;

@@ -2,14 +2,18 @@
 #include "pfgeom/base/limits.h"
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/compress/object_mesh.h"
+#include "pfgeom/eval/model_field.h"
+#include "pfgeom/polygonize/polygonize.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace pfgeom {
 namespace {
 
+constexpr int kMostDepthOfAll = 16;  // of a combination: of objects of very different sizes
 constexpr int kLeastResolution = 8, kMostResolution = 4096;
 
 void check_options(const MeshOptions& options) {
@@ -49,23 +53,87 @@ void append_painted(const TriangleMesh& mesh, const Object& object, const std::v
     }
 }
 
-PaintedMesh whole_mesh(const Model& model, const MeshOptions& options, bool painted, const Task& task) {
-    check_options(options);
-    PaintedMesh all;
-    if (painted) all.materials.names = model.materials.names;
-    const auto count = static_cast<double>(model.objects.size());
-    for (std::size_t i = 0; i < model.objects.size(); ++i) {
+PaintedMesh mesh_of_objects(const Model& model, const ObjectsToMesh& all, bool painted, const Task& task) {
+    PaintedMesh result;
+    const auto count = static_cast<double>(all.list.size());
+    for (std::size_t i = 0; i < all.list.size(); ++i) {
         const auto at = static_cast<double>(i);
-        const Object& object = model.objects[i];
+        const Object& object = all.list[i];
         const Task part = part_of(task, at / count, (at + 1) / count);
         part.report(0, "polygonize");
-        const TriangleMesh mesh = mesh_in_place(model, object, options, part);
+        const TriangleMesh mesh = mesh_in_place(model, all, object, part);
         if (painted) {
-            append_painted(mesh, object, model.materials.objects[i], border_snap(model), all, part);
+            append_painted(mesh, object, model.materials.objects[i], border_snap(model), result, part);
         } else {
-            for (const Similarity& place : copies_of(object)) append_copy(mesh, place, all.mesh, part);
+            for (const Similarity& place : copies_of(object)) append_copy(mesh, place, result.mesh, part);
         }
     }
+    return result;
+}
+
+// An operand alone, where its transforms put it: all objects of the model.
+PaintedMesh mesh_of_operand(const Model& model, const CombinationNode& operand, MeshOptions options,
+                            bool painted, const Task& task) {
+    if (operand.moved && options.tolerance) *options.tolerance /= most_stretch(operand.place);
+    PaintedMesh result = mesh_of_objects(model, {model.objects, operand.diagonal, options}, painted, task);
+    if (!operand.moved) return result;
+    for (Vec3& v : result.mesh.vertices) v = operand.place.apply(v);
+    if (operand.place.mirrors()) turn_faces(result.mesh);
+    return result;
+}
+
+// Of all copies of all objects of all operands.
+struct Extremes {
+    double chord = std::numeric_limits<double>::infinity(), half = chord;
+};
+
+Extremes extremes_of(const Model& model, const std::vector<CombinationNode>& tree) {
+    Extremes least;
+    for (const CombinationNode& node : tree) {
+        const double stretch = node.moved ? most_stretch(node.place) : 1;
+        for (std::int32_t i = node.first; i < node.last; ++i) {
+            const Object& object = model.objects[static_cast<std::size_t>(i)];
+            const double scale = stretch * largest_scale(object);
+            least.chord = std::min(least.chord, chord_of(object, node.diagonal) * scale);
+            least.half = std::min(least.half, object.frame.half() * scale);
+        }
+    }
+    return least;
+}
+
+// One cube for all. Without a tolerance the finest of the objects' chords serves; cells may be as fine as
+// each object's own would be.
+TriangleMesh mesh_of_combination(const Model& model, const std::vector<CombinationNode>& tree,
+                                 const MeshOptions& options, const Task& task) {
+    const Box box = ModelField(model).bounds();
+    const Vec3 extent = box.hi - box.lo;
+    if (!(extent.x > 0 && extent.y > 0 && extent.z > 0)) return {};
+    const Frame frame = Frame::around(box);
+    const Extremes least = extremes_of(model, tree);
+    PolygonizeOptions how;
+    how.min_depth = kLeastDepth;
+    how.max_depth =
+        std::min(kMostDepth + depth_for(frame.half(), 2 * least.half) - kLeastDepth, kMostDepthOfAll);
+    how.tolerance = (options.tolerance ? *options.tolerance : least.chord) / frame.half();
+    if (options.resolution) {
+        const double cell = std::max({extent.x, extent.y, extent.z}) / *options.resolution;
+        how.min_depth = how.max_depth = depth_for(frame.half(), cell);
+    }
+    TriangleMesh mesh = polygonize_combination(model, frame, how, task);
+    for (Vec3& v : mesh.vertices) v = frame.to_world(v);
+    return mesh;
+}
+
+// Set operations do not keep materials.
+PaintedMesh whole_mesh(const Model& model, const MeshOptions& options, bool painted, const Task& task) {
+    check_options(options);
+    const std::vector<CombinationNode> tree = combination_tree(model);
+    PaintedMesh all;
+    if (tree.back().is_operand())
+        all = mesh_of_operand(model, tree.back(), options, painted, task);
+    else
+        all.mesh = mesh_of_combination(model, tree, options, task);
+    if (painted) all.materials.names = model.materials.names;
     task.report(1, "polygonize");
     return all;
 }

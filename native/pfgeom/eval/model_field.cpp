@@ -1,27 +1,18 @@
 #include "pfgeom/eval/model_field.h"
 
+#include "pfgeom/eval/distance_field.h"
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/solid_field.h"
 #include "pfgeom/eval/tree_field.h"
-#include "pfgeom/mesh/bvh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace pfgeom {
 namespace {
-
-// An inside-out solid's root is a complement; what it encloses counts as inside all the same.
-Solid without_outer_complement(const Solid& solid) {
-    Solid inner = solid;
-    if (!inner.nodes.empty() && inner.nodes.back().kind == SetNode::Kind::complement &&
-        inner.nodes.back().a == static_cast<std::int32_t>(inner.nodes.size()) - 2) {
-        inner.nodes.pop_back();
-    }
-    return inner;
-}
 
 // A sheet as the solid that is empty around it: min(-|surface|, trim), which is zero on the sheet alone.
 Solid nothing_but(const Sheet& sheet) {
@@ -36,6 +27,13 @@ Solid nothing_but(const Sheet& sheet) {
 // Curved faces are divided until they are this share of the default mesh's chord tolerance from the surface.
 constexpr double kChordShare = 0.25;
 
+using Kind = CombinationStep::Kind;
+
+Vec3 corner_of(const Box& box, int corner) {
+    return {(corner & 1) != 0 ? box.hi.x : box.lo.x, (corner & 2) != 0 ? box.hi.y : box.lo.y,
+            (corner & 4) != 0 ? box.hi.z : box.lo.z};
+}
+
 }  // namespace
 
 // One object with its copies; value and gradient are in the world's units.
@@ -43,11 +41,11 @@ struct ModelField::Part {
     Frame frame;
     std::vector<Similarity> copies;
     std::int32_t cavity_of = -1;
-    std::unique_ptr<ScalarField> solid;  // in the frame's cube, which holds it
-    std::optional<Bvh> bvh;
+    std::unique_ptr<ScalarField> solid;     // in the frame's cube, which holds it
+    std::optional<DistanceField> distance;  // a mesh part's, in the world
     Box box;
 
-    Part(const Model& model, const Object& object)
+    Part(const Model& model, const Object& object, double diagonal)
         : frame(object.frame), copies(copies_of(object)), cavity_of(object.cavity_of) {
         const Vec3 h{frame.half(), frame.half(), frame.half()};
         box = {frame.centre() - h, frame.centre() + h};
@@ -59,15 +57,18 @@ struct ModelField::Part {
             solid = std::make_unique<TreeField>(*tree);
             box = {frame.to_world(tree->box().lo), frame.to_world(tree->box().hi)};
         } else if (std::holds_alternative<MeshPart>(object.shape)) {
-            bvh.emplace(mesh_of(object, {.chord = kChordShare * chord_of(model, object)}));
-            box = bvh->bounds();
+            distance.emplace(mesh_of(object, {.chord = kChordShare * chord_of(object, diagonal)}));
+            box = distance->bounds();
         }
     }
 
     Jet in_place(const Vec3& p) const {
-        if (bvh) return distance_jet(p);
-        if (!solid) return {-1e30, {}};
+        if (!solid && !distance) return {-1e30, {}};
         Jet jet;
+        if (distance) {
+            jet.value = distance->value_and_gradient(p, jet.gradient);
+            return jet;
+        }
         jet.value = solid->value_and_gradient(frame.to_local(p), jet.gradient) * frame.half();
         // Outside of its cube a solid is empty.
         if (const double most = most_beyond_cube(p); most < 0) jet.value = std::min(jet.value, most);
@@ -82,21 +83,13 @@ struct ModelField::Part {
 
     // Far copies need not be asked.
     bool cannot_exceed(const Vec3& p, double value) const {
-        if (bvh) {
+        if (distance) {
             const Vec3 nearest = max(box.lo, min(p, box.hi));
             constexpr double kRounded = 1 - 1e-9;
             return -kRounded * norm(p - nearest) < value;
         }
         const double most = most_beyond_cube(p);
         return most < 0 && most <= value;
-    }
-
-    Jet distance_jet(const Vec3& p) const {
-        const ClosestPoint c = bvh->closest(p);
-        const double d = std::sqrt(c.squared_distance);
-        const bool inside = std::abs(bvh->winding_number(p)) > 0.5;
-        const Vec3 away = normalized(p - c.point);
-        return inside ? Jet{d, away} : Jet{-d, -away};
     }
 
     // Union of the copies.
@@ -112,57 +105,135 @@ struct ModelField::Part {
         }
         return best;
     }
+
+    Box bounds() const {
+        Box all;
+        for (const Similarity& s : copies)
+            for (int corner = 0; corner < 8; ++corner) all.grow(s.apply(corner_of(box, corner)));
+        return all;
+    }
 };
 
-ModelField::ModelField(const Model& model) {
-    for (const Object& object : model.objects) parts_.push_back(std::make_unique<Part>(model, object));
+// A node of the combination; one operand with all objects where there is none.
+struct ModelField::Node {
+    CombinationNode what;
+    Box box{};           // of its surface, in the model's space
+    double reach = 0;    // beyond the box the value is at most -reach times the distance, in the maximum norm
+    Affine back{};       // operand: to its own space
+    double stretch = 1;  // operand: values there times this are at most distances here
+
+    double most_at(const Vec3& p) const {
+        const Vec3 d = max(box.lo - p, p - box.hi);
+        const double beyond = std::max({d.x, d.y, d.z});
+        return beyond > 0 ? -reach * beyond : std::numeric_limits<double>::infinity();
+    }
+};
+
+ModelField::ModelField(const Model& model) : parts_(model.objects.size()) {
+    for (const CombinationNode& what : combination_tree(model)) {
+        if (what.is_operand()) add_parts(model, what);
+        nodes_.push_back(node_of(what));
+    }
 }
 ModelField::~ModelField() = default;
 ModelField::ModelField(ModelField&&) noexcept = default;
 ModelField& ModelField::operator=(ModelField&&) noexcept = default;
 
-namespace {
+const ModelField::Node& ModelField::node_at(std::int32_t index) const {
+    return nodes_[static_cast<std::size_t>(index)];
+}
 
-template <class Parts>
-Jet union_of(const Parts& parts, const Vec3& p) {
+// Operands that are used again are there already.
+void ModelField::add_parts(const Model& model, const CombinationNode& operand) {
+    for (std::int32_t i = operand.first; i < operand.last; ++i) {
+        const auto row = static_cast<std::size_t>(i);
+        if (!parts_[row]) parts_[row] = std::make_unique<Part>(model, model.objects[row], operand.diagonal);
+    }
+}
+
+ModelField::Node ModelField::node_of(const CombinationNode& what) const {
+    // The maximum norm of a turned box's distance, and rounding.
+    constexpr double kTurned = 0.57735 * (1 - 1e-6);
+    Node node{.what = what};
+    if (!what.is_operand()) {
+        const Node &a = node_at(what.a), &b = node_at(what.b);
+        node.reach = std::min(a.reach, b.reach);
+        node.box = a.box;
+        if (what.kind == Kind::unite) node.box.grow(b.box);
+        if (what.kind == Kind::intersect) node.box = {max(a.box.lo, b.box.lo), min(a.box.hi, b.box.hi)};
+        return node;
+    }
+    node.reach = kTurned;
+    for (std::int32_t i = what.first; i < what.last; ++i)
+        node.box.grow(parts_[static_cast<std::size_t>(i)]->bounds());
+    if (!what.moved) return node;
+    node.back = inverse_of(what.place);
+    node.stretch = 1 / most_stretch(node.back);
+    node.reach *= node.stretch / most_stretch(what.place);
+    const Box before = std::exchange(node.box, {});
+    for (int corner = 0; corner < 8; ++corner) node.box.grow(what.place.apply(corner_of(before, corner)));
+    return node;
+}
+
+// Cavities stand behind what they are taken out of.
+Jet ModelField::operand_jet(std::int32_t first, std::int32_t last, const Vec3& p) const {
+    const auto from = static_cast<std::size_t>(first), to = static_cast<std::size_t>(last);
     std::vector<Jet> jets;
-    jets.reserve(parts.size());
-    for (const auto& part : parts) jets.push_back(part->jet(p));
-    // Cavities stand behind what they are taken out of.
-    for (std::size_t i = parts.size(); i-- > 0;) {
-        if (parts[i]->cavity_of < 0) continue;
-        Jet& outer = jets[static_cast<std::size_t>(parts[i]->cavity_of)];
-        if (-jets[i].value < outer.value) outer = {-jets[i].value, -jets[i].gradient};
+    jets.reserve(to - from);
+    for (std::size_t i = from; i < to; ++i) jets.push_back(parts_[i]->jet(p));
+    for (std::size_t i = to; i-- > from;) {
+        if (parts_[i]->cavity_of < 0) continue;
+        Jet& outer = jets[static_cast<std::size_t>(parts_[i]->cavity_of) - from];
+        const Jet& hollow = jets[i - from];
+        if (-hollow.value < outer.value) outer = {-hollow.value, -hollow.gradient};
     }
     Jet best{-1e30, {}};
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i]->cavity_of < 0 && jets[i].value > best.value) best = jets[i];
+    for (std::size_t i = from; i < to; ++i) {
+        if (parts_[i]->cavity_of < 0 && jets[i - from].value > best.value) best = jets[i - from];
     }
     return best;
 }
 
-}  // namespace
+// Max, min and min with the negative; what cannot matter is not asked. Recursion as deep as the combination,
+// at most Combination::kMostDepth.
+Jet ModelField::jet(std::int32_t index, const Vec3& p) const {
+    const Node& node = node_at(index);
+    const CombinationNode& what = node.what;
+    if (what.is_operand()) {
+        if (!what.moved) return operand_jet(what.first, what.last, p);
+        const Jet there = operand_jet(what.first, what.last, node.back.apply(p));
+        return {there.value * node.stretch, node.back.pull(there.gradient) * node.stretch};
+    }
+    const Node& other = node_at(what.b);
+    if (what.kind == Kind::unite && node_at(what.a).most_at(p) < other.most_at(p)) {
+        const Jet b = jet(what.b, p);
+        if (node_at(what.a).most_at(p) < b.value) return b;
+        const Jet a = jet(what.a, p);
+        return a.value >= b.value ? a : b;
+    }
+    const Jet a = jet(what.a, p);
+    if (what.kind == Kind::unite && other.most_at(p) < a.value) return a;
+    if (what.kind == Kind::subtract && -other.most_at(p) > a.value) return a;
+    Jet b = jet(what.b, p);
+    if (what.kind == Kind::unite) return a.value >= b.value ? a : b;
+    if (what.kind == Kind::subtract) b = {-b.value, -b.gradient};
+    return a.value <= b.value ? a : b;
+}
+
+Jet ModelField::jet(const Vec3& p) const {
+    return jet(static_cast<std::int32_t>(nodes_.size()) - 1, p);
+}
 
 double ModelField::value(const Vec3& world) const {
-    return union_of(parts_, world).value;
+    return jet(world).value;
 }
 
 Vec3 ModelField::gradient(const Vec3& world) const {
-    return union_of(parts_, world).gradient;
+    return jet(world).gradient;
 }
 
 Box ModelField::bounds() const {
-    Box all;
-    for (const auto& part : parts_) {
-        for (const Similarity& s : part->copies) {
-            for (int corner = 0; corner < 8; ++corner) {
-                all.grow(s.apply({(corner & 1) != 0 ? part->box.hi.x : part->box.lo.x,
-                                  (corner & 2) != 0 ? part->box.hi.y : part->box.lo.y,
-                                  (corner & 4) != 0 ? part->box.hi.z : part->box.lo.z}));
-            }
-        }
-    }
-    return all;
+    return nodes_.back().box;
 }
 
 }  // namespace pfgeom

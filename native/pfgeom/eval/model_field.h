@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pfgeom/base/box.h"
+#include "pfgeom/eval/function_field.h"
 #include "pfgeom/function/model.h"
 
 #include <memory>
@@ -18,6 +19,7 @@ class ModelField {
     ModelField& operator=(ModelField&&) noexcept;
 
     /// > 0 inside the union of the objects, in the world's units near the surface (approximately a distance).
+    /// Of a combination: max, min, and min with the negative of its operands' values, exactly.
     double value(const Vec3& world) const;
     /// Gradient of value, per world unit.
     Vec3 gradient(const Vec3& world) const;
@@ -26,7 +28,16 @@ class ModelField {
 
   private:
     struct Part;
-    std::vector<std::unique_ptr<Part>> parts_;
+    struct Node;
+    void add_parts(const Model& model, const CombinationNode& operand);
+    Node node_of(const CombinationNode& what) const;
+    const Node& node_at(std::int32_t index) const;
+    Jet jet(const Vec3& p) const;
+    Jet operand_jet(std::int32_t first, std::int32_t last, const Vec3& p) const;
+    Jet jet(std::int32_t index, const Vec3& p) const;
+
+    std::vector<std::unique_ptr<Part>> parts_;  // of each object
+    std::vector<Node> nodes_;                   // the root last
 };
 
 }  // namespace pfgeom

@@ -35,16 +35,6 @@ bool is_bounded(const Quadric& q) {
     return std::all_of(q.c.begin(), q.c.end(), [](double c) { return is_bounded(c, kMaxCoefficient); });
 }
 
-Flaw flaw_of(const Promise& promise, double diagonal) {
-    const auto is_length = [](double x) { return x >= 0 && x <= 0x1p127; };
-    if (!(diagonal >= 0x1p-127 && diagonal <= 0x1p127)) return "the diagonal is not between 2^-127 and 2^127";
-    if (!is_length(promise.tolerance)) return "the tolerance is not a length";
-    if (!is_length(promise.bound_mesh) || !is_length(promise.rms)) return "bound_mesh or rms is not a length";
-    if (!is_length(promise.bound_functions)) return "bound_functions is not a length";
-    if (promise.functions_certified && promise.bound_functions == 0) return "an unknown bound is certified";
-    return {};
-}
-
 Flaw flaw_of(const Level& level) {
     const std::size_t n = level.centres.size();
     if (level.z.size() != n || level.scale.size() != n || level.lattice.size() != n) {
@@ -207,8 +197,18 @@ Flaw flaw_of_world_transform(const std::vector<double>& matrix) {
 
 }  // namespace
 
+std::string find_flaw(const Promise& promise, double diagonal) {
+    const auto is_length = [](double x) { return x >= 0 && x <= 0x1p127; };
+    if (!(diagonal >= 0x1p-127 && diagonal <= 0x1p127)) return "the diagonal is not between 2^-127 and 2^127";
+    if (!is_length(promise.tolerance)) return "the tolerance is not a length";
+    if (!is_length(promise.bound_mesh) || !is_length(promise.rms)) return "bound_mesh or rms is not a length";
+    if (!is_length(promise.bound_functions)) return "bound_functions is not a length";
+    if (promise.functions_certified && promise.bound_functions == 0) return "an unknown bound is certified";
+    return {};
+}
+
 std::string find_flaw(const Model& model, const Limits& limits) {
-    if (Flaw flaw = flaw_of(model.promise, model.diagonal); !flaw.empty()) return flaw;
+    if (Flaw flaw = find_flaw(model.promise, model.diagonal); !flaw.empty()) return flaw;
     if (model.objects.empty()) return "the model has no objects";
     for (std::size_t i = 0; i < model.functions.size(); ++i) {
         if (Flaw flaw = flaw_of(model.functions[i]); !flaw.empty()) return row("function", i) + ": " + flaw;
@@ -218,6 +218,7 @@ std::string find_flaw(const Model& model, const Limits& limits) {
             return row("object", i) + ": " + flaw;
     }
     if (nesting_has_cycle(model.objects)) return "cavities are nested in a circle";
+    if (Flaw flaw = find_combination_flaw(model); !flaw.empty()) return flaw;
     const auto negative = [](std::int32_t label) { return label < 0; };
     if (std::any_of(model.face_groups.begin(), model.face_groups.end(), negative))
         return "a face group is negative";

@@ -2,6 +2,15 @@
 
 namespace pfgeom {
 
+Solid without_outer_complement(const Solid& solid) {
+    Solid inner = solid;
+    if (!inner.nodes.empty() && inner.nodes.back().kind == SetNode::Kind::complement &&
+        inner.nodes.back().a == static_cast<std::int32_t>(inner.nodes.size()) - 2) {
+        inner.nodes.pop_back();
+    }
+    return inner;
+}
+
 std::vector<Similarity> copies_of(const Object& object) {
     std::vector<Similarity> copies;
     const Placements& p = object.placements;

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "pfgeom/base/triangle.h"
+#include "pfgeom/function/combination.h"
 #include "pfgeom/function/frame.h"
 #include "pfgeom/function/material_map.h"
 #include "pfgeom/function/placement.h"
+#include "pfgeom/function/promise.h"
 #include "pfgeom/function/quadric.h"
 #include "pfgeom/function/set_tree.h"
 
@@ -143,25 +145,11 @@ struct Object {
     friend bool operator==(const Object&, const Object&) = default;
 };
 
-enum class Metric : std::uint8_t { max, rms };
-
-/// What the encoder promised and measured, in the mesh's units, rounded up where it matters.
-struct Promise {
-    Metric metric = Metric::max;
-    double tolerance = 0;    ///< what the user named
-    double bound_mesh = 0;   ///< largest deviation between the input and the default mesh
-    bool certified = false;  ///< bound_mesh is proved (else the largest of samples)
-    double rms = 0;          ///< two-sided, the worse direction
-    /// Largest deviation between the input and the surface of the functions themselves (of a mesh part: its
-    /// mesh), of which the default mesh is an image; 0: not known.
-    double bound_functions = 0;
-    bool functions_certified = false;  ///< bound_functions is proved
-};
-
 struct Model {
     std::vector<Function> functions;
     std::vector<Object> objects;
-    double diagonal = 0;  ///< of the input's bounding box
+    Combination combination;  ///< of the objects; empty: their union
+    double diagonal = 0;      ///< of the input's bounding box
     Promise promise;
     std::vector<std::string> names;         ///< optional: of the objects, or of the whole
     std::vector<double> world_transform;    ///< optional: 16 values, row-major, the last row 0 0 0 1
@@ -173,9 +161,15 @@ struct Model {
 std::vector<Similarity> copies_of(const Object& object);
 std::size_t copy_count(const Object& object);  ///< of them
 
-/// The default mesh's chord tolerance, in the world's units.
-inline double chord_of(const Model& model, const Object& object) {
-    return model.diagonal * exp2_eighths(-2 * int{object.mesh_code});
+/// An inside-out solid's root is a complement; what it encloses counts as inside all the same.
+Solid without_outer_complement(const Solid& solid);
+
+/// The combination as a tree, the root last; of a model without one: all objects as one operand.
+std::vector<CombinationNode> combination_tree(const Model& model);
+
+/// The default mesh's chord tolerance, in the units of the object's model, which has this diagonal.
+inline double chord_of(const Object& object, double diagonal) {
+    return diagonal * exp2_eighths(-2 * int{object.mesh_code});
 }
 
 }  // namespace pfgeom

@@ -36,10 +36,37 @@ double zero_between(const Quadric& q, const Vec3& a, const Vec3& b) {
     return 0.5;
 }
 
+// The same of any field: false position, where it gains little with half the value of the end that stays.
+// Source: M. Dowell, P. Jarratt, "A modified regula falsi method", BIT 11, 1971.
+double zero_between(const ScalarField& field, const Vec3& a, const Vec3& b) {
+    constexpr int kSteps = 40;
+    constexpr double kClose = 1e-7;  // of the segment
+    double t0 = 0, t1 = 1, f0 = field.value(a), f1 = field.value(b), last = 0.5;
+    for (int i = 0, side = 0; i < kSteps; ++i) {
+        const double guess = t0 + (t1 - t0) * (f0 / (f0 - f1));
+        const double t = guess > t0 && guess < t1 ? guess : (t0 + t1) / 2;
+        const double f = field.value(a + (b - a) * t);
+        const bool close = std::abs(t - last) <= kClose;
+        last = t;
+        if (f == 0 || close) break;
+        const bool left = (f < 0) == (f0 < 0);
+        (left ? t0 : t1) = t;
+        (left ? f0 : f1) = f;
+        if (side == (left ? 1 : 2)) (left ? f1 : f0) /= 2;
+        side = left ? 1 : 2;
+    }
+    return last;
+}
+
+double zero_between(const CutSolid& solid, std::int32_t question, const Vec3& a, const Vec3& b) {
+    return solid.is_quadric(question) ? zero_between(solid.quadric(question), a, b)
+                                      : zero_between(*solid.smooth(question).field, a, b);
+}
+
 class Cutting {
   public:
-    Cutting(const TreePruner& tree, double snap, std::size_t max_cells, TreeCells& cells, const Task& task)
-        : tree_(tree), snap_(snap), max_cells_(max_cells), cells_(cells), task_(task), known_(kKnown) {}
+    Cutting(const CutSolid& solid, double snap, std::size_t max_cells, TreeCells& cells, const Task& task)
+        : solid_(solid), snap_(snap), max_cells_(max_cells), cells_(cells), task_(task), known_(kKnown) {}
 
     // In rounds, each cell asking for one cut in each: no cell runs ahead.
     void run() {
@@ -77,22 +104,26 @@ class Cutting {
     void match(std::vector<Tetrahedron>& cells) const;
     bool cut_where_cut(const Tetrahedron& t, std::vector<Tetrahedron>& pieces) const;
     bool advance(Tetrahedron& t, bool may_cut);
+    bool follow(std::int32_t& node, const Tetrahedron& t, bool may_cut, bool& inside);
+    bool follow_operation(std::int32_t node, const Tetrahedron& t, bool may_cut, bool& inside);
     void cut(const Tetrahedron& t, std::int32_t question);
     double distance(std::int32_t vertex, std::int32_t question) const {
-        return cells_.distance(tree_, vertex, question);
+        return cells_.distance(solid_, vertex, question);
     }
     int sign(std::int32_t vertex, std::int32_t question);
     Signs signs(const Tetrahedron& t, std::int32_t question);
     bool high_at_centre(const Tetrahedron& t, std::int32_t question) const;
     Side examine(std::int32_t node, const Tetrahedron& t);
+    Side examine_operation(std::int32_t node, const Tetrahedron& t);
 
-    const TreePruner& tree_;
+    const CutSolid& solid_;
     double snap_;
     std::size_t max_cells_;
     TreeCells& cells_;
     const Task& task_;
     TetEdgeTable cuts_;
     std::vector<Known> known_;
+    std::vector<std::int32_t> reached_;  // leaves of the present cell
 };
 
 // Cuts the cells wherever an edge of theirs has been: one piece stays in place, the others go to the end. A
@@ -131,25 +162,67 @@ bool Cutting::cut_where_cut(const Tetrahedron& t, std::vector<Tetrahedron>& piec
     return true;
 }
 
-// Follows the answers down the tree. True at a leaf; at a question with both answers one more edge is cut.
+// True once what is open of the solid has answers: `node` then says which. Else one more edge is cut.
 bool Cutting::advance(Tetrahedron& t, bool may_cut) {
+    reached_.clear();
+    bool inside = false;
+    if (!follow(t.node, t, may_cut, inside)) return false;
+    if (!solid_.combined()) {
+        t.node = reached_.front();
+        return true;
+    }
+    t.node = static_cast<std::int32_t>(cells_.leaves.size());
+    cells_.leaves.push_back(static_cast<std::int32_t>(2 * reached_.size()) + (inside ? 1 : 0));
+    cells_.leaves.insert(cells_.leaves.end(), reached_.begin(), reached_.end());
+    return true;
+}
+
+// Follows the answers down, to leaves that go to reached_; `node` is then where the way ended. False where a
+// question with both answers matters and has been given a cut: pieces go on from there, since an answer that
+// did not matter stays given.
+bool Cutting::follow(std::int32_t& node, const Tetrahedron& t, bool may_cut, bool& inside) {
     for (;;) {
-        const OpenNode node = cells_.open[t.node];
-        if (node.question < 0) {
-            t.node = node.low;
+        const OpenNode n = cells_.open[node];
+        if (n.question == SolidNode::kLeaf) {
+            reached_.push_back(n.low);
+            inside = solid_.whole()[n.low].inside;
             return true;
         }
-        const Signs s = signs(t, node.question);
+        if (n.question < 0) return follow_operation(node, t, may_cut, inside);
+        const Signs s = signs(t, n.question);
         bool high = s.high;
         if (s.high == s.low) {
-            if (s.high && may_cut && examine(t.node, t) == Side::both) {
-                cut(t, node.question);
+            if (s.high && may_cut && examine(node, t) == Side::both) {
+                cut(t, n.question);
                 return false;
             }
-            high = high_at_centre(t, node.question);  // either is right
+            high = high_at_centre(t, n.question);  // either is right
         }
-        t.node += high ? 1 : node.low;
+        node += high ? 1 : n.low;
     }
+}
+
+// An operand that settles the operation speaks for it, else both do.
+bool Cutting::follow_operation(std::int32_t node, const Tetrahedron& t, bool may_cut, bool& inside) {
+    const OpenNode n = cells_.open[node];
+    std::int32_t first = node + 1, second = node + n.low;
+    if (n.question == SolidNode::kComplement) {
+        const bool done = follow(first, t, may_cut, inside);
+        inside = !inside;
+        return done;
+    }
+    const bool settles = n.question == SolidNode::kUnite;
+    if (may_cut && examine(second, t) == (settles ? Side::inside : Side::outside))
+        return follow(second, t, may_cut, inside);
+    const std::size_t before = reached_.size();
+    if (!follow(first, t, may_cut, inside)) return false;
+    if (inside == settles) return true;
+    const std::size_t between = reached_.size();
+    if (!follow(second, t, may_cut, inside)) return false;
+    if (inside == settles)
+        reached_.erase(reached_.begin() + static_cast<std::ptrdiff_t>(before),
+                       reached_.begin() + static_cast<std::ptrdiff_t>(between));
+    return true;
 }
 
 // At the oldest of the edges with ends on both sides. Were newer ones cut first, two questions could cut a
@@ -171,7 +244,7 @@ void Cutting::cut(const Tetrahedron& t, std::int32_t question) {
     for (const std::int32_t q : za)
         if (q >= 0 && n < zeros.size() && std::find(zb.begin(), zb.end(), q) != zb.end()) zeros[n++] = q;
     cuts_.insert(a, b, static_cast<std::int32_t>(cells_.position.size()));
-    cells_.position.push_back(pa + (pb - pa) * zero_between(tree_.quadric(question), pa, pb));
+    cells_.position.push_back(pa + (pb - pa) * zero_between(solid_, question, pa, pb));
     cells_.zeros.push_back(zeros);
 }
 
@@ -205,7 +278,8 @@ bool Cutting::high_at_centre(const Tetrahedron& t, std::int32_t question) const 
 // What the subtree says in the tetrahedron, going by its corners.
 Side Cutting::examine(std::int32_t node, const Tetrahedron& t) {
     const OpenNode n = cells_.open[node];
-    if (n.question < 0) return tree_.whole()[n.low].inside ? Side::inside : Side::outside;
+    if (n.question == SolidNode::kLeaf) return solid_.whole()[n.low].inside ? Side::inside : Side::outside;
+    if (n.question < 0) return examine_operation(node, t);
     const Signs s = signs(t, n.question);
     if (s.high != s.low) return examine(node + (s.high ? 1 : n.low), t);
     if (!s.high) return examine(node + (high_at_centre(t, n.question) ? 1 : n.low), t);
@@ -213,11 +287,22 @@ Side Cutting::examine(std::int32_t node, const Tetrahedron& t) {
     return high != Side::both && high == examine(node + n.low, t) ? high : Side::both;
 }
 
+Side Cutting::examine_operation(std::int32_t node, const Tetrahedron& t) {
+    const OpenNode n = cells_.open[node];
+    const Side first = examine(node + 1, t);
+    if (n.question == SolidNode::kComplement)
+        return first == Side::both ? first : first == Side::inside ? Side::outside : Side::inside;
+    const Side settles = n.question == SolidNode::kUnite ? Side::inside : Side::outside;
+    if (first == settles) return settles;
+    const Side second = examine(node + n.low, t);
+    return first == Side::both && second != settles ? Side::both : second;
+}
+
 }  // namespace
 
-void cut_cells(const TreePruner& tree, double snap, std::size_t max_cells, TreeCells& cells,
+void cut_cells(const CutSolid& solid, double snap, std::size_t max_cells, TreeCells& cells,
                const Task& task) {
-    Cutting(tree, snap, max_cells, cells, task).run();
+    Cutting(solid, snap, max_cells, cells, task).run();
 }
 
 }  // namespace pfgeom

@@ -1,11 +1,36 @@
 #include "pfgeom/polygonize/label_surface.h"
 
+#include "pfgeom/polygonize/lattice.h"
+
+#include <bit>
+#include <cstdint>
+
 namespace pfgeom {
 namespace {
 
 constexpr int kSteps = 8;  // of Newton; two are the rule
+constexpr std::size_t kKnown = 1 << 16;
+
+std::size_t slot_of(std::int32_t question, const Vec3& p) {
+    std::uint64_t key = static_cast<std::uint64_t>(question);
+    for (const double c : {p.x, p.y, p.z}) key = hash_key(key ^ std::bit_cast<std::uint64_t>(c));
+    return key & (kKnown - 1);
+}
 
 }  // namespace
+
+Jet LabelSurface::jet(Label label, const Vec3& p) const {
+    const std::int32_t question = label / 2;
+    if (solid_.is_quadric(question))
+        return {solid_.quadric(question).value(p), solid_.quadric(question).gradient(p)};
+    if (known_.empty()) known_.resize(kKnown);
+    Known& known = known_[slot_of(question, p)];
+    if (known.question != question || !(known.p == p)) {
+        known = {question, p, {}};
+        known.jet.value = solid_.value(question, p, known.jet.gradient);
+    }
+    return known.jet;
+}
 
 // Newton's step for all the labels, by Gram and Schmidt: the shortest that solves the linearised equations.
 Vec3 LabelSurface::step(std::span<const Label> labels, const Vec3& p, double least_sine) const {
@@ -13,7 +38,7 @@ Vec3 LabelSurface::step(std::span<const Label> labels, const Vec3& p, double lea
     std::size_t n = 0;
     Vec3 d;
     for (const Label label : labels) {
-        const Vec3 gradient = quadric(label).gradient(p);
+        const auto [value, gradient] = jet(label, p);
         const double slope = norm(gradient);
         const Vec3 g = gradient / slope;
         Vec3 u = g;
@@ -21,7 +46,7 @@ Vec3 LabelSurface::step(std::span<const Label> labels, const Vec3& p, double lea
         const double sine = norm(u);
         if (!(sine > least_sine)) continue;
         u = u / sine;
-        d -= u * ((quadric(label).value(p) / slope + dot(g, d)) / sine);
+        d -= u * ((value / slope + dot(g, d)) / sine);
         basis[n++] = u;
         if (n == 3) break;
     }

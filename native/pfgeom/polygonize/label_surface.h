@@ -1,24 +1,22 @@
-// Where labelled faces, edges and vertices belong: on the zero sets of their quadrics.
+// Where labelled faces, edges and vertices belong: on the zero sets of their questions.
 #pragma once
 
-#include "pfgeom/eval/pruned_tree.h"
+#include "pfgeom/eval/function_field.h"
+#include "pfgeom/polygonize/cut_solid.h"
 #include "pfgeom/polygonize/tree_boundary.h"
 
 #include <span>
+#include <vector>
 
 namespace pfgeom {
 
 class LabelSurface {
   public:
-    explicit LabelSurface(const TreePruner& tree) : tree_(tree) {}
+    explicit LabelSurface(const CutSolid& solid) : solid_(solid) {}
 
     /// Unit, towards the outside; 0 where the gradient is.
     Vec3 normal(Label label, const Vec3& p) const {
-        return normalized(quadric(label).gradient(p) * (label % 2 == 0 ? -1.0 : 1.0));
-    }
-    /// To first order; infinite or not a number where the gradient vanishes.
-    double distance(Label label, const Vec3& p) const {
-        return std::abs(quadric(label).value(p)) / norm(quadric(label).gradient(p));
+        return normalized(jet(label, p).gradient * (label % 2 == 0 ? -1.0 : 1.0));
     }
     /// Sine of the least angle between zero sets at which their intersection is looked for. At smaller ones
     /// it is far away, or not there, and the first of them is within the tolerance of the others.
@@ -32,10 +30,17 @@ class LabelSurface {
                  double least_sine = kLeastSine) const;
 
   private:
-    const Quadric& quadric(Label label) const { return tree_.quadric(label / 2); }
+    struct Known {
+        std::int32_t question = -1;
+        Vec3 p;
+        Jet jet;
+    };
+    // Of a field only once in a while: the same few vertices are asked for again and again.
+    Jet jet(Label label, const Vec3& p) const;
     Vec3 step(std::span<const Label> labels, const Vec3& p, double least_sine) const;
 
-    const TreePruner& tree_;
+    const CutSolid& solid_;
+    mutable std::vector<Known> known_;  // of fields; one thread has one surface
 };
 
 }  // namespace pfgeom

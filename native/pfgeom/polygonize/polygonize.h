@@ -4,12 +4,15 @@
 #include "pfgeom/base/limits.h"
 #include "pfgeom/base/task.h"
 #include "pfgeom/eval/scalar_field.h"
+#include "pfgeom/function/model.h"
 #include "pfgeom/function/set_tree.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
 #include <cstddef>
 
 namespace pfgeom {
+
+class CutSolid;
 
 struct PolygonizeOptions {
     double tolerance = 1e-3;  ///< aimed distance between mesh and zero set, in the field's units
@@ -34,6 +37,15 @@ TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& optio
 /// vertices of the mesh; the same promises. Walls and grooves show though they are much thinner than the
 /// cells; those thinner than the tolerance may have holes where they are bent.
 TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task = {});
+
+/// Any solid made for cutting (polygonize/cut_solid.h), likewise.
+TriangleMesh polygonize(const CutSolid& solid, const PolygonizeOptions& options, const Task& task = {});
+
+/// The surface of a model's combination within the frame's cube, in the cube's coordinates: as of trees, with
+/// creases where the operands' surfaces cross. Creases of a smooth operand, of which mesh parts are, are met
+/// to within the tolerance only. Throws InvalidInput if an object is a sheet.
+TriangleMesh polygonize_combination(const Model& model, const Frame& frame, const PolygonizeOptions& options,
+                                    const Task& task = {});
 
 /// The zero set of `surface` in the cube where `trim` is >= 0. Its border, except where the cube ends it,
 /// lies on both zero sets. The rest as for trees.

@@ -83,15 +83,15 @@ SetTree solid_of_sheet(const Quadric& surface, const Quadric& trim) {
     return tree;
 }
 
-LabelledMesh labelled_mesh_of(const TreePruner& pruner, const PolygonizeOptions& options, const Task& task) {
+LabelledMesh labelled_mesh_of(const CutSolid& solid, const PolygonizeOptions& options, const Task& task) {
     check(options);
     LabelledMesh mesh;
     {
-        TreeCells cells = cells_near_surface(pruner, options, kCellChord * options.tolerance, task);
+        TreeCells cells = cells_near_surface(solid, options, kCellChord * options.tolerance, task);
         task.report(0.2, "cells");
-        cut_cells(pruner, kSnap * options.tolerance, options.max_cells, cells, task);
+        cut_cells(solid, kSnap * options.tolerance, options.max_cells, cells, task);
         task.report(0.4, "cells");
-        mesh = manifold_of(boundary_of(pruner, std::move(cells), task));
+        mesh = manifold_of(boundary_of(solid, std::move(cells), task));
         task.report(0.6, "triangles");
     }
     const AdaptOptions adapt_options{.edge_tolerance = kEdgeChord * options.tolerance,
@@ -99,25 +99,29 @@ LabelledMesh labelled_mesh_of(const TreePruner& pruner, const PolygonizeOptions&
                                      .accuracy = kAccuracy * options.tolerance,
                                      .shortest_edge = 2.0 / std::ldexp(1.0, options.max_depth),
                                      .max_faces = options.max_faces};
-    adapt_creases(LabelSurface(pruner), adapt_options, mesh, task);
+    adapt_creases(LabelSurface(solid), adapt_options, mesh, task);
     task.report(1, "triangles");
     return mesh;
 }
 
 }  // namespace
 
-TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task) {
-    LabelledMesh mesh = labelled_mesh_of(TreePruner(tree), options, task);
+TriangleMesh polygonize(const CutSolid& solid, const PolygonizeOptions& options, const Task& task) {
+    LabelledMesh mesh = labelled_mesh_of(solid, options, task);
     return without_bits({std::move(mesh.mesh.position), mesh.mesh.faces()}, kBit * options.tolerance);
+}
+
+TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task) {
+    return polygonize(CutSolid(TreePruner(tree)), options, task);
 }
 
 TriangleMesh polygonize_sheet(const Quadric& surface, const Quadric& trim, const PolygonizeOptions& options,
                               const Task& task) {
-    const TreePruner pruner(solid_of_sheet(surface, trim));
-    LabelledMesh solid = labelled_mesh_of(pruner, options, task);
+    const CutSolid below(TreePruner(solid_of_sheet(surface, trim)));
+    LabelledMesh solid = labelled_mesh_of(below, options, task);
     TriangleMesh sheet{std::move(solid.mesh.position), {}};
     for (std::size_t f = 0; f < solid.label.size(); ++f)
-        if (pruner.quadric(solid.label[f] / 2) == surface) sheet.faces.push_back(solid.mesh.faces()[f]);
+        if (below.quadric(solid.label[f] / 2) == surface) sheet.faces.push_back(solid.mesh.faces()[f]);
     compact_vertices(sheet);
     return sheet;
 }

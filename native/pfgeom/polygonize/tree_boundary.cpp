@@ -15,13 +15,16 @@ struct CellFace {
 
 class Boundary {
   public:
-    Boundary(const TreePruner& tree, TreeCells&& cells, const Task& task)
-        : tree_(tree), cells_(std::move(cells)), task_(task) {
+    Boundary(const CutSolid& solid, TreeCells&& cells, const Task& task)
+        : solid_(solid), cells_(std::move(cells)), task_(task) {
         name_labels();
-        const PrunedTree& nodes = tree_.whole();
+        const std::vector<SolidNode>& nodes = solid_.whole();
         parent_.assign(nodes.size(), -1);
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-            if (nodes[i].question >= 0) parent_[i + 1] = parent_[nodes[i].low] = static_cast<std::int32_t>(i);
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (nodes[i].question == SolidNode::kLeaf) continue;
+            parent_[i + 1] = static_cast<std::int32_t>(i);
+            if (nodes[i].low >= 0) parent_[nodes[i].low] = static_cast<std::int32_t>(i);
+        }
     }
 
     TreeBoundary run() {
@@ -38,16 +41,16 @@ class Boundary {
 
   private:
     void name_labels();
-    bool inside(std::int32_t node) const { return tree_.whole()[node].inside; }
+    using Leaves = std::span<const std::int32_t>;
     void group_cells();
     void collect_faces(std::int32_t vertex, std::vector<CellFace>& faces) const;
     void add_border(const std::vector<CellFace>& faces);
-    std::int32_t node_at(const CellFace& face) const;
-    void add(const CellFace& face, std::int32_t in, std::int32_t out, bool turned);
-    Label label_of(const Triangle& face, std::int32_t in, std::int32_t out) const;
+    CellAnswer answer_beyond(const CellFace& face);
+    void add(const CellFace& face, Leaves in, Leaves out, bool turned);
+    Label label_of(const Triangle& face, Leaves in, Leaves out) const;
     double distance(std::int32_t question, const Triangle& face) const;
 
-    const TreePruner& tree_;
+    const CutSolid& solid_;
     TreeCells cells_;
     const Task& task_;
     // Each cell at the lowest and at the second lowest of its vertices: the lowest of a face is one of the
@@ -56,19 +59,21 @@ class Boundary {
     std::vector<std::int32_t> grouped_;
     std::vector<std::int32_t> parent_;  // by node
     std::vector<Label> label_;          // by question: of its high side
+    std::vector<std::int32_t> beyond_;  // leaves where there is no cell
     TreeBoundary out_;
 };
 
 // Questions that ask the same have one label: that of the first of them.
 void Boundary::name_labels() {
-    for (std::size_t i = 0; i < tree_.questions(); ++i) {
-        const Quadric& q = tree_.quadric(static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < solid_.questions(); ++i) {
+        const Quadric& q = solid_.quadric(static_cast<std::int32_t>(i));
         Quadric negative = q;
         for (double& c : negative.c) c = -c;
         Label label = 2 * static_cast<Label>(i);
-        for (std::size_t k = 0; k < i && label == 2 * static_cast<Label>(i); ++k) {
-            if (tree_.quadric(static_cast<std::int32_t>(k)) == q) label = label_[k];
-            if (tree_.quadric(static_cast<std::int32_t>(k)) == negative) label = label_[k] ^ 1;
+        const bool quadric = solid_.is_quadric(static_cast<std::int32_t>(i));
+        for (std::size_t k = 0; quadric && k < i && label == 2 * static_cast<Label>(i); ++k) {
+            if (solid_.quadric(static_cast<std::int32_t>(k)) == q) label = label_[k];
+            if (solid_.quadric(static_cast<std::int32_t>(k)) == negative) label = label_[k] ^ 1;
         }
         label_.push_back(label);
     }
@@ -115,30 +120,29 @@ void Boundary::add_border(const std::vector<CellFace>& faces) {
     for (std::size_t i = 0, next; i < faces.size(); i = next) {
         const bool matched = i + 1 < faces.size() && faces[i + 1].sorted == faces[i].sorted;
         next = i + (matched ? 2 : 1);
-        const std::int32_t node = cells_.cells[faces[i].cell].node;
-        const std::int32_t beyond = matched ? cells_.cells[faces[i + 1].cell].node : node_at(faces[i]);
-        if (inside(node) == inside(beyond)) continue;
-        if (inside(node))
-            add(faces[i], node, beyond, false);
+        const CellAnswer here = cells_.answer(solid_, cells_.cells[faces[i].cell]);
+        const CellAnswer there =
+            matched ? cells_.answer(solid_, cells_.cells[faces[i + 1].cell]) : answer_beyond(faces[i]);
+        if (here.inside == there.inside) continue;
+        if (here.inside)
+            add(faces[i], here.leaves, there.leaves, false);
         else if (matched)
-            add(faces[i + 1], beyond, node, false);
+            add(faces[i + 1], there.leaves, here.leaves, false);
         else
-            add(faces[i], beyond, node, true);
+            add(faces[i], there.leaves, here.leaves, true);
     }
 }
 
-// The leaf beyond a face without a second cell: the tree says the same all over there.
-std::int32_t Boundary::node_at(const CellFace& face) const {
+// Of a face without a second cell: the solid says the same all over there.
+CellAnswer Boundary::answer_beyond(const CellFace& face) {
     Vec3 centre;
     for (const std::int32_t v : face.sorted) centre += cells_.position[v] / 3;
-    const PrunedTree& nodes = tree_.whole();
-    std::int32_t at = 0;
-    while (nodes[at].question >= 0)
-        at = tree_.quadric(nodes[at].question).value(centre) >= 0 ? at + 1 : nodes[at].low;
-    return at;
+    beyond_.clear();
+    const bool inside = solid_.contains(centre, beyond_);
+    return {inside, beyond_};
 }
 
-void Boundary::add(const CellFace& face, std::int32_t in, std::int32_t out, bool turned) {
+void Boundary::add(const CellFace& face, Leaves in, Leaves out, bool turned) {
     const Tetrahedron& cell = cells_.cells[face.cell];
     Triangle t{};
     for (std::size_t k = 0; k < 3; ++k) t[k] = cell.vertex[kTetrahedronFaces[face.opposite][k]];
@@ -147,30 +151,37 @@ void Boundary::add(const CellFace& face, std::int32_t in, std::int32_t out, bool
     out_.label.push_back(label_of(t, in, out));
 }
 
-// Which question divides the two leaves? The one on their paths whose zero set the face lies on; mostly it is
-// that at which the paths part, but a cell in which an answer did not matter has got either.
-Label Boundary::label_of(const Triangle& face, std::int32_t in, std::int32_t out) const {
+// Which question divides the leaves inside from those outside? The one on their paths whose zero set the face
+// lies on; mostly it is that at which two paths part, but a cell in which an answer did not matter has got
+// either.
+Label Boundary::label_of(const Triangle& face, Leaves in, Leaves out) const {
     double least = std::numeric_limits<double>::infinity();
     Label best = 0;
     const auto consider = [&](std::int32_t node, bool inwards) {
-        if (least == 0) return;
-        const std::int32_t question = tree_.whole()[node].question;
+        const std::int32_t question = solid_.whole()[node].question;
+        if (least == 0 || question < 0) return;
         const double d = distance(question, face);
         if (!(d < least)) return;
         least = d;
         best = label_[question] ^ (inwards ? 0 : 1);
     };
-    std::int32_t a = in, b = out, before_a = in;
-    while (a != b) {  // nodes stand after their parents
-        if (a > b)
-            a = parent_[before_a = a];
-        else
-            b = parent_[b];
+    for (const std::int32_t from : in) {
+        for (const std::int32_t to : out) {
+            if (from == to) continue;
+            std::int32_t a = from, b = to, before_a = from;
+            while (a != b) {  // nodes stand after their parents
+                if (a > b)
+                    a = parent_[before_a = a];
+                else
+                    b = parent_[b];
+            }
+            consider(a, before_a == a + 1);
+        }
     }
-    consider(a, before_a == a + 1);
-    for (const std::int32_t leaf : {in, out})
-        for (std::int32_t child = leaf, at = parent_[leaf]; at >= 0; child = at, at = parent_[at])
-            consider(at, (child == at + 1) == (leaf == in));
+    for (const bool inside : {true, false})
+        for (const std::int32_t leaf : inside ? in : out)
+            for (std::int32_t child = leaf, at = parent_[leaf]; at >= 0; child = at, at = parent_[at])
+                consider(at, (child == at + 1) == inside);
     return best;
 }
 
@@ -178,7 +189,7 @@ Label Boundary::label_of(const Triangle& face, std::int32_t in, std::int32_t out
 double Boundary::distance(std::int32_t question, const Triangle& face) const {
     double most = 0;
     for (const std::int32_t v : face) {
-        const double d = std::abs(cells_.distance(tree_, v, question));
+        const double d = std::abs(cells_.distance(solid_, v, question));
         if (!(d <= most)) most = d;
     }
     return most;
@@ -186,8 +197,8 @@ double Boundary::distance(std::int32_t question, const Triangle& face) const {
 
 }  // namespace
 
-TreeBoundary boundary_of(const TreePruner& tree, TreeCells&& cells, const Task& task) {
-    return Boundary(tree, std::move(cells), task).run();
+TreeBoundary boundary_of(const CutSolid& solid, TreeCells&& cells, const Task& task) {
+    return Boundary(solid, std::move(cells), task).run();
 }
 
 }  // namespace pfgeom

@@ -1,4 +1,4 @@
-// The border between the cells inside and outside a set tree, as triangles that know their quadric.
+// The border between the cells inside and outside a solid, as triangles that know their question.
 #pragma once
 
 #include "pfgeom/base/triangle.h"
@@ -17,6 +17,6 @@ struct TreeBoundary {
     std::vector<Label> label;     ///< by face
 };
 
-TreeBoundary boundary_of(const TreePruner& tree, TreeCells&& cells, const Task& task);
+TreeBoundary boundary_of(const CutSolid& solid, TreeCells&& cells, const Task& task);
 
 }  // namespace pfgeom

@@ -11,16 +11,16 @@ namespace {
 // in a picture of a thousand. The default mesh's share of its chord tolerance is the coarsest.
 constexpr double kChord = 1e-5, kChordShare = 0.25;
 
-double chord_for(const Model& model, const Object& object) {
-    return std::min(kChord * model.diagonal, kChordShare * chord_of(model, object));
+double chord_for(const Object& object, double diagonal) {
+    return std::min(kChord * diagonal, kChordShare * chord_of(object, diagonal));
 }
 
 }  // namespace
 
-RayMesh::RayMesh(const Model& model, const Object& object, const Task& task)
-    : RayMesh(mesh_of(object, {.chord = chord_for(model, object)}), task) {
+RayMesh::RayMesh(const Object& object, double diagonal, const Task& task)
+    : RayMesh(mesh_of(object, {.chord = chord_for(object, diagonal)}), task) {
     const auto* part = std::get_if<MeshPart>(&object.shape);
-    if (part != nullptr && part->curved()) chord_ = chord_for(model, object);
+    if (part != nullptr && part->curved()) chord_ = chord_for(object, diagonal);
 }
 
 RayMesh::RayMesh(const TriangleMesh& mesh, const Task& task) : bvh_(mesh, task), vertices_(mesh.vertices) {

@@ -24,14 +24,6 @@ KnownSign sign_of(const Interval& range) {
     return range.lo >= 0 ? KnownSign::inside : range.hi < 0 ? KnownSign::outside : KnownSign::unknown;
 }
 
-// What encloses a hollow from outside counts as a solid (function/model.h): its surface is the same.
-std::vector<SetNode> without_outer_complement(std::vector<SetNode> nodes) {
-    const bool turned = nodes.size() > 1 && nodes.back().kind == Kind::complement &&
-                        nodes.back().a == static_cast<std::int32_t>(nodes.size()) - 2;
-    if (turned) nodes.pop_back();
-    return nodes;
-}
-
 bool names_function(const SetNode& node) {
     return node.kind == Kind::function || node.kind == Kind::decide;
 }
@@ -43,7 +35,7 @@ std::int32_t& function_of(SetNode& node) {
 }  // namespace
 
 RaySolid::RaySolid(const Model& model, const Solid& solid, const Frame& frame, const Task& task)
-    : place_(frame), nodes_(without_outer_complement(solid.nodes)) {
+    : place_(frame), nodes_(without_outer_complement(solid).nodes) {
     for (SetNode& node : nodes_) {
         if (names_function(node)) function_of(node) = add(model, function_of(node));
     }

@@ -20,6 +20,9 @@ class RayTarget {
     /// accuracy, or as far as a budget of work goes. Likewise in the world.
     virtual Extreme extreme(const SearchGoal& goal, double within, double accuracy,
                             ExtremeSearch& search) const = 0;
+    /// Where the normals of hits do not tell inside from outside (a mesh's): is the point inside?
+    virtual bool tells_sides() const { return true; }
+    virtual bool contains(const Vec3&) const { return false; }
     /// Boxes that hold the surface together; none if there is no surface.
     virtual std::vector<Box> cover() const = 0;
 };

@@ -5,27 +5,20 @@
 #include "pfgeom/render/ray_solid.h"
 #include "pfgeom/render/ray_tree.h"
 
+#include <algorithm>
+
 namespace pfgeom {
 namespace {
 
-std::unique_ptr<RayTarget> make_target(const Model& model, const Object& object, const Task& task) {
+std::unique_ptr<RayTarget> make_target(const Model& model, const Object& object, double diagonal,
+                                       const Task& task) {
     if (const auto* tree = std::get_if<SetTree>(&object.shape))
         return std::make_unique<RayTree>(*tree, object.frame, task);
     if (const auto* solid = std::get_if<Solid>(&object.shape))
         return std::make_unique<RaySolid>(model, *solid, object.frame, task);
     if (const auto* sheet = std::get_if<Sheet>(&object.shape))
         return std::make_unique<RaySolid>(model, *sheet, object.frame, task);
-    return std::make_unique<RayMesh>(model, object, task);
-}
-
-Box placed(const Box& box, const Similarity& place) {
-    Box all;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        all.grow(
-            place.apply({(corner & 1U) != 0 ? box.hi.x : box.lo.x, (corner & 2U) != 0 ? box.hi.y : box.lo.y,
-                         (corner & 4U) != 0 ? box.hi.z : box.lo.z}));
-    }
-    return all;
+    return std::make_unique<RayMesh>(object, diagonal, task);
 }
 
 // Larger by what rounding may have taken off.
@@ -37,43 +30,67 @@ Box with_margin(const Box& box) {
 
 }  // namespace
 
-RayScene::RayScene(const Model& model, const Task& task) {
+RayScene::RayScene(const Model& model, const Task& task) : targets_(model.objects.size()) {
     std::vector<Box> boxes;
-    for (std::size_t i = 0; i < model.objects.size(); ++i) {
-        const Object& object = model.objects[i];
-        task.report(static_cast<double>(i) / static_cast<double>(model.objects.size()), "preparing");
-        const bool is_cavity = object.cavity_of >= 0 && !std::holds_alternative<MeshPart>(object.shape);
-        add(make_target(model, object, task), copies_of(object), is_cavity, boxes);
+    const std::vector<CombinationNode> tree = combination_tree(model);
+    if (!tree.back().is_operand()) combined_.emplace(model, tree);
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+        if (!tree[i].is_operand()) continue;
+        add(model, tree[i], boxes, task);
+        if (combined_) combined_->set_operand(i, pieces_);
     }
     boxes_ = BoxTree(boxes);
 }
 
 RayScene::RayScene(const TriangleMesh& mesh, const Task& task) {
     std::vector<Box> boxes;
-    add(std::make_unique<RayMesh>(mesh, task), std::vector<Similarity>(1), false, boxes);
+    targets_.push_back(std::make_unique<RayMesh>(mesh, task));
+    Box box;
+    for (const Box& part : targets_.back()->cover()) box.grow(part);
+    if (!box.empty())
+        add_piece({.target = targets_.back().get(), .object = 0, .whole = Similarity{}}, box, boxes);
     boxes_ = BoxTree(boxes);
 }
 
-void RayScene::add(std::unique_ptr<RayTarget> target, std::span<const Similarity> places, bool is_cavity,
-                   std::vector<Box>& boxes) {
-    const auto object = static_cast<std::int32_t>(targets_.size());
-    targets_.push_back(std::move(target));
-    Box box;
-    for (const Box& part : targets_.back()->cover()) box.grow(part);
-    if (box.empty()) return;
-    for (const Similarity& place : places) {
-        const bool moved = !(place == Similarity{});
-        pieces_.push_back({targets_.back().get(), object, moved, is_cavity, place});
-        boxes.push_back(with_margin(moved ? placed(box, place) : box));
+// What an operand before this one has made ready is there already.
+void RayScene::add(const Model& model, const CombinationNode& operand, std::vector<Box>& boxes,
+                   const Task& task) {
+    for (std::int32_t i = operand.first; i < operand.last; ++i) {
+        const auto row = static_cast<std::size_t>(i);
+        const Object& object = model.objects[row];
+        task.report(static_cast<double>(i) / static_cast<double>(model.objects.size()), "preparing");
+        if (!targets_[row]) targets_[row] = make_target(model, object, operand.diagonal, task);
+        Box box;
+        for (const Box& part : targets_[row]->cover()) box.grow(part);
+        if (box.empty()) continue;
+        RayPiece piece{.target = targets_[row].get(), .object = i};
+        piece.is_cavity = object.cavity_of >= 0 && !std::holds_alternative<MeshPart>(object.shape);
+        piece.is_moved = operand.moved;
+        if (operand.moved) {
+            piece.moved = operand.place;
+            piece.back = inverse_of(operand.place);
+        }
+        for (const Similarity& place : copies_of(object)) {
+            piece.is_copy = !(place == Similarity{});
+            piece.place = place;
+            piece.whole = operand.moved ? similarity_of(composed(operand.place, affine_of(place))) : place;
+            add_piece(piece, box, boxes);
+        }
     }
+}
+
+void RayScene::add_piece(const RayPiece& piece, const Box& box, std::vector<Box>& boxes) {
+    pieces_.push_back(piece);
+    boxes.push_back(with_margin(piece.in_world(box)));
 }
 
 // Of equal ones the one that comes first: pieces are met in the ray's order.
 SurfaceHit RayScene::first_hit(const Ray& ray, const RaySpan& span) const {
+    if (combined_) return combined_->first_hit(pieces_, boxes_, ray, span);
     SurfaceHit best;
     RaySpan left = span;
     boxes_.walk(ray, left, [&](std::int32_t piece, RaySpan& part) {
-        const SurfaceHit hit = hit_of(pieces_[static_cast<std::size_t>(piece)], ray, part);
+        const SurfaceHit hit = pieces_[static_cast<std::size_t>(piece)].first_hit(ray, part);
         if (!(hit.t < best.t || (hit.t == best.t && hit.object < best.object))) return;
         best = hit;
         part.to = hit.t;
@@ -85,14 +102,12 @@ NearestPoint RayScene::nearest(const Vec3& p, double accuracy, ExtremeSearch& se
     NearestPoint best;
     double within = std::numeric_limits<double>::infinity();
     boxes_.walk_near(p, within, [&](std::int32_t row) {
-        const Piece& piece = pieces_[static_cast<std::size_t>(row)];
-        const double scale = piece.is_copy ? piece.place.scale : 1;
-        const SearchGoal goal{piece.is_copy ? piece.place.apply_inverse(p) : p, false};
-        const Extreme found = piece.target->extreme(goal, within / scale, accuracy / scale, search);
-        best.proved = std::min(best.proved, found.proved * scale);
-        const double distance = found.cost * scale;
+        const RayPiece& piece = pieces_[static_cast<std::size_t>(row)];
+        const Extreme found = piece.nearest(p, within, accuracy, search);
+        best.proved = std::min(best.proved, found.proved);
+        const double distance = found.cost;
         if (!(distance < best.distance || (distance == best.distance && piece.object < best.object))) return;
-        best.point = piece.is_copy ? piece.place.apply(found.point) : found.point;
+        best.point = found.point;
         best.distance = distance;
         best.object = piece.object;
         within = distance;
@@ -101,24 +116,28 @@ NearestPoint RayScene::nearest(const Vec3& p, double accuracy, ExtremeSearch& se
     return best;
 }
 
+bool RayScene::keeps_distances() const {
+    return !combined_ &&
+           std::none_of(pieces_.begin(), pieces_.end(), [](const RayPiece& p) { return !p.whole; });
+}
+
 Box RayScene::bounds(double accuracy, const Task& task) const {
     Box all;
+    if (combined_) {
+        for (const Box& box : cover()) all.grow(box);
+        return all;
+    }
     std::vector<Box> boxes(pieces_.size());
     parallel_chunks(pieces_.size(), 1, task, [&](std::size_t row, std::size_t) {
-        const Piece& piece = pieces_[row];
         ExtremeSearch search(task);
         Vec3 lo, hi;
         for (int axis = 0; axis < 3; ++axis) {
             for (const double sign : {-1.0, 1.0}) {
                 Vec3 direction;
                 direction[axis] = sign;
-                const SearchGoal goal{piece.is_copy ? piece.place.turn_back(direction) : direction, true};
-                const double scale = piece.is_copy ? piece.place.scale : 1;
-                const Extreme found = piece.target->extreme(goal, std::numeric_limits<double>::infinity(),
-                                                            accuracy / scale, search);
-                if (!found.found()) return;
-                const double shift = piece.is_copy ? piece.place.translation[axis] : 0;
-                (sign < 0 ? lo : hi)[axis] = shift - sign * found.proved * scale;
+                const std::optional<double> most = pieces_[row].most_along(direction, accuracy, search);
+                if (!most) return;
+                (sign < 0 ? lo : hi)[axis] = sign * *most;
             }
         }
         boxes[row] = {lo, hi};
@@ -130,27 +149,13 @@ Box RayScene::bounds(double accuracy, const Task& task) const {
 }
 
 std::vector<Box> RayScene::cover() const {
+    if (combined_) return combined_->cover(pieces_);
     std::vector<Box> all;
-    for (const Piece& piece : pieces_) {
-        for (const Box& box : piece.target->cover())
-            all.push_back(piece.is_copy ? placed(box, piece.place) : box);
+    for (const RayPiece& piece : pieces_) {
+        const std::vector<Box> boxes = piece.cover();
+        all.insert(all.end(), boxes.begin(), boxes.end());
     }
     return all;
-}
-
-SurfaceHit RayScene::hit_of(const Piece& piece, const Ray& ray, const RaySpan& span) {
-    SurfaceHit hit;
-    if (piece.is_copy) {
-        const Similarity& s = piece.place;
-        const Ray back{s.apply_inverse(ray.origin), s.turn_back(ray.direction) / s.scale};
-        hit = piece.target->first_hit(back, span);
-        hit.normal = s.turn(hit.normal);
-    } else {
-        hit = piece.target->first_hit(ray, span);
-    }
-    if (piece.is_cavity) hit.normal = -hit.normal;
-    if (hit.found()) hit.object = piece.object;
-    return hit;
 }
 
 }  // namespace pfgeom

@@ -5,10 +5,12 @@
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 #include "pfgeom/render/box_tree.h"
+#include "pfgeom/render/combined_ray.h"
 #include "pfgeom/render/ray_target.h"
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,7 +25,8 @@ struct NearestPoint {
 };
 
 /// Immutable, safe to use from many threads; made once, kept for many rays. The surface is that of all
-/// objects and their copies, whatever lies within another one included.
+/// objects and their copies, whatever lies within another one included; of set operations it is that between
+/// inside and outside of the result.
 class RayScene {
   public:
     explicit RayScene(const Model& model, const Task& task = {});
@@ -33,27 +36,25 @@ class RayScene {
     SurfaceHit first_hit(const Ray& ray, const RaySpan& span = {}) const;
     /// The point of the surface nearest to p, and a proof that none is nearer than `accuracy` less (or as far
     /// as a budget of work goes). Curved faces of mesh parts count as triangles within 1e-5 of the diagonal.
+    /// Only where keeps_distances().
     NearestPoint nearest(const Vec3& p, double accuracy, ExtremeSearch& search) const;
-    /// The smallest box that holds the surface, but for `accuracy`; empty if there is none.
+    /// Neither set operations, nor operands with transforms that change the ratios of distances.
+    bool keeps_distances() const;
+    /// The smallest box that holds the surface, but for `accuracy`; empty if there is none. Of set operations
+    /// a larger one.
     Box bounds(double accuracy, const Task& task = {}) const;
     /// Boxes that hold the surface together, in some detail; none if there is no surface.
     std::vector<Box> cover() const;
 
   private:
-    struct Piece {  // an object, in place or as a copy
-        const RayTarget* target = nullptr;
-        std::int32_t object = -1;
-        bool is_copy = false, is_cavity = false;
-        Similarity place;
-    };
-    /// The next object, wherever it lies; `boxes` are those of the pieces.
-    void add(std::unique_ptr<RayTarget> target, std::span<const Similarity> places, bool is_cavity,
-             std::vector<Box>& boxes);
-    static SurfaceHit hit_of(const Piece& piece, const Ray& ray, const RaySpan& span);
+    /// The objects of an operand, wherever they lie; `boxes` are those of the pieces.
+    void add(const Model& model, const CombinationNode& operand, std::vector<Box>& boxes, const Task& task);
+    void add_piece(const RayPiece& piece, const Box& box, std::vector<Box>& boxes);
 
     std::vector<std::unique_ptr<RayTarget>> targets_;  // of each object
-    std::vector<Piece> pieces_;
-    BoxTree boxes_;  // of the pieces
+    std::vector<RayPiece> pieces_;
+    BoxTree boxes_;                           // of the pieces
+    std::optional<CombinedPieces> combined_;  // if there are set operations
 };
 
 }  // namespace pfgeom

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace pfgeom {
 namespace {
@@ -20,10 +21,11 @@ struct Place {
     Similarity first;
     std::int32_t copies = 1;
 
-    explicit Place(const Object& object) : frame(object.frame) {
+    Place(const Object& object, const std::optional<Similarity>& operand, std::int32_t uses)
+        : frame(object.frame) {
         const std::vector<Similarity> all = copies_of(object);
-        first = all.front();
-        copies = static_cast<std::int32_t>(all.size());
+        first = operand ? composed(*operand, all.front()) : all.front();
+        copies = uses * static_cast<std::int32_t>(all.size());
     }
     double half() const { return frame.half() * first.scale; }  // of the cube, in the world
 
@@ -71,7 +73,7 @@ class FunctionLister {
         for (; object_ < static_cast<std::int32_t>(model_.objects.size()); ++object_) {
             const Object& object = model_.objects[static_cast<std::size_t>(object_)];
             if (std::holds_alternative<MeshPart>(object.shape)) continue;
-            const Place place(object);
+            const Place place = place_of(object);
             if (const auto* tree = std::get_if<SetTree>(&object.shape)) add(*tree, place);
             if (const auto* solid = std::get_if<Solid>(&object.shape)) add(*solid, place);
             if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
@@ -83,6 +85,17 @@ class FunctionLister {
     }
 
   private:
+    // As the first of the operands that it belongs to lies; where that is sheared, as it was before.
+    Place place_of(const Object& object) const {
+        std::optional<Similarity> operand;
+        std::int32_t uses = 0;
+        for (const CombinationNode& node : combination_tree(model_)) {
+            if (!node.is_operand() || object_ < node.first || object_ >= node.last) continue;
+            if (uses++ == 0 && node.moved) operand = similarity_of(node.place);
+        }
+        return {object, operand, uses};
+    }
+
     void add(const SetTree& tree, const Place& place) {
         const TreeSurface surface = find_surface(tree, task_);
         const double half = place.half(), tolerance = model_.promise.tolerance / half;

@@ -2,6 +2,7 @@
 // made.
 #include "codec/model_hash.h"
 #include "codec/random_model.h"
+#include "combinations.h"
 #include "pfgeom/codec/codec.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::vector<fs::path> golden_folders() {
     const fs::path all = fs::path(__FILE__).parent_path() / ".." / ".." / "golden";
-    return {all / "v1", all / "v2"};
+    return {all / "v1", all / "v2", all / "combined"};
 }
 
 Bytes read(const fs::path& path) {
@@ -82,6 +83,20 @@ std::map<std::string, Model> placed_models() {
     return models;
 }
 
+// With the section of a combination: each operation, a transform alone, nested ones.
+std::map<std::string, Model> combined_models() {
+    std::map<std::string, Model> models;
+    Random random(2026);
+    const Model a = test::ball(), b = test::tree_model(1), c = test::mesh_ball();
+    models["union"] = a | b;
+    models["intersection"] = b & c;
+    models["difference"] = c - a;
+    models["moved"] = transformed(c, test::random_affine(random));
+    for (std::uint64_t seed = 0; seed < 9; ++seed)
+        models["nested" + std::to_string(seed)] = test::random_combination(seed);
+    return models;
+}
+
 TEST(Golden, OldFilesDecodeToWhatTheyWere) {
     for (const fs::path& folder : golden_folders()) {
         const auto manifest = read_manifest(folder);
@@ -112,7 +127,7 @@ std::vector<fs::path> small_goldens() {
 
 TEST(Golden, NoFlippedBitAndNoPrefixPasses) {
     const std::vector<fs::path> files = small_goldens();
-    EXPECT_EQ(files.size(), 6U);
+    EXPECT_EQ(files.size(), 9U);
     for (const fs::path& file : files) {
         const Bytes bytes = read(file);
         const std::size_t size = bytes.size();
@@ -126,13 +141,14 @@ TEST(Golden, NoFlippedBitAndNoPrefixPasses) {
     }
 }
 
-// Makes golden files of version 2: PFGEOM_NEW_GOLDENS names their folder. Files that lie there already
-// are taken into the manifest too. Never to be used for a version that was released.
+// Makes golden files of version 2, or of combinations: PFGEOM_NEW_GOLDENS names their folder. Files that lie
+// there already are taken into the manifest too. Never to be used for a version that was released.
 TEST(Golden, Make) {
     const char* folder = std::getenv("PFGEOM_NEW_GOLDENS");
     if (folder == nullptr) GTEST_SKIP() << "only on demand";
     fs::create_directories(folder);
-    for (const auto& [file, model] : placed_models())
+    const bool combined = fs::path(folder).filename() == "combined";
+    for (const auto& [file, model] : combined ? combined_models() : placed_models())
         write(fs::path(folder) / (file + ".pfg"), encode(model));
     std::map<std::string, std::uint64_t> manifest;
     for (const auto& entry : fs::directory_iterator(folder)) {

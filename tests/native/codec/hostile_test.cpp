@@ -2,6 +2,7 @@
 // soon, and within the memory that its size allows.
 #include "codec/counting_allocator.h"
 #include "codec/random_model.h"
+#include "combinations.h"
 #include "pfgeom/base/random.h"
 #include "pfgeom/codec/byte_writer.h"
 #include "pfgeom/codec/codec.h"
@@ -72,7 +73,8 @@ std::vector<Bytes> small_files() {
             encode(with_curved_part()),
             encode(with_tree(4)),
             encode(test::with_placements(ball(), 3)),
-            encode(test::painted(with_tree(3), 15))};
+            encode(test::painted(with_tree(3), 15)),
+            encode(ball() - transformed(with_tree(3), Affine{}))};
 }
 
 Bytes flipped(Bytes bytes, std::size_t bit) {

@@ -88,7 +88,12 @@ class ModelHash {
         add(m.functions), add(m.objects), add(m.diagonal), add(m.promise);
         add(m.names), add(m.world_transform), add(m.face_groups);
         if (!m.materials.empty()) add(m.materials.names), add(m.materials.objects);
+        if (!m.combination.empty()) add(m.combination);
     }
+    void add(const Affine& a) { add(a.rows), add(a.translation); }
+    void add(const Operand& o) { add(o.objects), add(o.diagonal), add(o.promise); }
+    void add(const CombinationStep& s) { add(static_cast<std::uint8_t>(s.kind)), add(s.row); }
+    void add(const Combination& c) { add(c.operands), add(c.transforms), add(c.steps); }
 
   private:
     std::uint64_t hash_ = 0xCBF29CE484222325ULL;
