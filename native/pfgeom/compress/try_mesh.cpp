@@ -15,8 +15,8 @@ namespace pfgeom {
 namespace {
 
 // Of the tolerance: how far the default mesh may be from the curved faces, how far where it would have more
-// than so many times the input's triangles, and what the fit leaves for it.
-constexpr double kChordShare = 0.08, kMostChordShare = 0.5, kReserve = 0.08;
+// than three quarters of the input's triangles, or three times as many, and what the fit leaves for it.
+constexpr double kChordShare = 0.08, kLongChordShare = 0.12, kMostChordShare = 0.5, kReserve = 0.08;
 constexpr std::size_t kMostTriangles = 3;
 // Inside a patch chords are off by more than along its edges: where the proof misses the tolerance by less
 // than so much a finer default mesh is tried, with chords of half the length in the end.
@@ -29,8 +29,8 @@ constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 // The finest default mesh that is not too large for the input.
 std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
-    std::uint8_t code = mesh_code_for(goal, kChordShare * goal.tolerance);
-    const std::uint8_t least = mesh_code_for(goal, kMostChordShare * goal.tolerance);
+    const auto code_for = [&](double share) { return mesh_code_for(goal, share * goal.tolerance); };
+    std::uint8_t code = code_for(kChordShare);
     const auto triangles = [&] {
         try {
             return mesh_of(object, {.chord = goal.diagonal * exp2_eighths(-2 * int{code})}).faces.size();
@@ -38,7 +38,9 @@ std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
             return kNoLimit;
         }
     };
-    while (code > least && triangles() > kMostTriangles * goal.mesh.faces.size()) --code;
+    const std::size_t input = goal.mesh.faces.size();
+    while (code > code_for(kLongChordShare) && triangles() > input - input / 4) --code;
+    while (code > code_for(kMostChordShare) && triangles() > kMostTriangles * input) --code;
     return code;
 }
 
