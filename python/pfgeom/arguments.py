@@ -125,6 +125,8 @@ def _add_report(commands: Any) -> None:
         help="for a mesh without its .pfg: allowed deviation, as a share of the diagonal (default 1e-3)",
     )  # fmt: skip
     _add_common(command)
+
+
 def _add_combine(commands: Any) -> None:
     command = commands.add_parser("combine", help="union, intersection or difference of two .pfg files, as functions")
     command.add_argument("a", metavar="A.pfg")

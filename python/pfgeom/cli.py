@@ -156,6 +156,8 @@ def run_report(args: argparse.Namespace) -> None:
             args.output, args.mesh, args.model, tolerance=args.tolerance, threads=args.threads, progress=progress
         )  # fmt: skip
     _print(args, report_figures(args, time.perf_counter() - start), tables.reported)
+
+
 def run_combine(args: argparse.Namespace) -> None:
     _check_target(args.output)
     a, b = load(args.a), load(args.b)

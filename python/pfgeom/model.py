@@ -483,19 +483,17 @@ class Model:
         ValueError
             An operand has an open surface.
         """
-        return self._combined(other, "union")
+        return self._combined(other, "union") if isinstance(other, Model) else NotImplemented
 
     def __and__(self, other: object) -> Model:
         """Intersection: inside is what is inside of both; the smaller value. As for the union."""
-        return self._combined(other, "intersection")
+        return self._combined(other, "intersection") if isinstance(other, Model) else NotImplemented
 
     def __sub__(self, other: object) -> Model:
         """Difference: this without the other, the smaller of its value and the other's negative. As for the union."""
-        return self._combined(other, "difference")
+        return self._combined(other, "difference") if isinstance(other, Model) else NotImplemented
 
-    def _combined(self, other: object, operation: str) -> Model:
-        if not isinstance(other, Model):
-            return NotImplemented
+    def _combined(self, other: Model, operation: str) -> Model:
         return Model(_core.combined(self._core, other._core, operation))
 
     def transformed(self, matrix: ArrayLike) -> Model:

@@ -192,6 +192,8 @@ def _materials(f: dict[str, Any]) -> list[Row]:
     more = len(names) - _NAMED
     listed = ", ".join(names[:_NAMED]) + (f" and {more:,} more" if more > 0 else "")
     return [("materials", f"{len(names):,}", listed)] if names else []
+
+
 def _combination(f: dict[str, Any]) -> list[Row]:
     if not f["combination"]:
         return []

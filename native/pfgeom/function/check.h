@@ -18,12 +18,12 @@ std::string find_flaw(const SetTree& tree);
 
 /// The same for the materials alone (function/material_check.cpp).
 std::string find_flaw_of_materials(const Model& model, const Limits& limits = {});
+
 /// Of a promise, and of the diagonal that stands beside it.
 std::string find_flaw(const Promise& promise, double diagonal);
 
 /// Of the model's combination: operands that are all used, in order, and cover the objects; steps that leave
 /// one result; transforms that can be inverted; no sheet in a set operation (function/combination.cpp).
 std::string find_combination_flaw(const Model& model);
-
 
 }  // namespace pfgeom
