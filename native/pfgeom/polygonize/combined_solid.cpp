@@ -54,7 +54,7 @@ class Builder {
     // What is added next is the low child or the second operand.
     void turn_to_low(std::size_t node) { nodes()[node].low = static_cast<std::int32_t>(nodes().size()); }
 
-    void add(std::int32_t node);
+    void add(std::int32_t index);
     void add_operand(const CombinationNode& operand);
     void add_object(std::int32_t object, const CombinationNode& operand);
     void add_copies(std::int32_t object, const CombinationNode& operand);
