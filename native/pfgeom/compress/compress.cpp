@@ -228,8 +228,7 @@ class Compressor {
         std::sort(together.faces.begin(), together.faces.end());
         const TriangleMesh mesh = extract_island(prepared_, together);
         const Bvh bvh(mesh);
-        const Goal goal = goal_of(mesh, bvh, false);
-        Outcome outcome = try_mesh(goal, estimate_mesh(goal, task_), part_of(task_, 0.82, 0.95));
+        Outcome outcome = try_mesh(goal_of(mesh, bvh, false), {}, part_of(task_, 0.82, 0.95));
         model_.objects.push_back(std::move(outcome.object));
         of_mesh_part_ = outcome.deviation;
     }

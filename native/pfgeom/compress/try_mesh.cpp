@@ -38,9 +38,14 @@ std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
             return kNoLimit;
         }
     };
+    std::size_t count = triangles();
+    const auto coarsen = [&](double share, std::size_t most) {
+        for (const std::uint8_t least = code_for(share); code > least && count > most; count = triangles())
+            --code;
+    };
     const std::size_t input = goal.mesh.faces.size();
-    while (code > code_for(kLongChordShare) && triangles() > input - input / 4) --code;
-    while (code > code_for(kMostChordShare) && triangles() > kMostTriangles * input) --code;
+    coarsen(kLongChordShare, input - input / 4);
+    coarsen(kMostChordShare, kMostTriangles * input);
     return code;
 }
 
@@ -116,9 +121,9 @@ Outcome flat_by_rms(const Goal& goal, const Task& task) {
 
 // Flat faces are not made where curved ones take fewer bytes than flat ones hardly ever do. With less of the
 // tolerance either only becomes more, so that is not tried where the other does no worse with all of it.
-Outcome best_by_max(const Goal& goal, const MeshEstimate& estimate, const Task& task) {
+Outcome best_by_max(const Goal& goal, const std::optional<MeshEstimate>& known, const Task& task) {
     Outcome curved = attempt(goal, 1, true, task);
-    if (curved.holds && curved.bytes < estimate.least) return curved;
+    if (curved.holds && curved.bytes < (known ? *known : estimate_mesh(goal, task)).least) return curved;
     Outcome flat = attempt(goal, 1, false, task);
     for (const double share : {0.96, 0.9}) {
         if (curved.holds || (flat.holds && curved.bytes >= flat.bytes)) break;
@@ -145,12 +150,12 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task) {
             static_cast<std::size_t>(kMostBytes * static_cast<double>(left[0]))};
 }
 
-Outcome try_mesh(const Goal& goal, const MeshEstimate& estimate, const Task& task) {
+Outcome try_mesh(const Goal& goal, const std::optional<MeshEstimate>& known, const Task& task) {
     const bool by_max = goal.metric == Metric::max;
     const bool quick = by_max && goal.mesh.faces.size() <= kMostCurved;
     if (goal.effort == Effort::fast || (goal.effort == Effort::normal && !quick))
         return by_max ? flat_by_max(goal, task) : flat_by_rms(goal, task);
-    if (by_max) return best_by_max(goal, estimate, task);
+    if (by_max) return best_by_max(goal, known, task);
     Outcome flat = flat_by_rms(goal, task);
     std::optional<Outcome> curved = search_rms(goal, true, flat.bytes, task);
     return curved && curved->bytes < flat.bytes ? *std::move(curved) : flat;

@@ -118,7 +118,7 @@ bool CreaseTests::merge_mends(std::int32_t h, double tolerance) const {
     do {
         now += turned_over(spoke / 3);
         const std::int32_t x = m_.mesh.to(spoke), y = m_.mesh.apex(spoke);
-        then += x != b && y != b && !faces_outside(m_.label_at(spoke), at(b), at(x), at(y), kFlat, 0);
+        then += x != b && y != b && turned_over(m_.label_at(spoke), at(b), at(x), at(y));
         spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
     } while (spoke != h);
     return then < now;
@@ -159,8 +159,7 @@ bool CreaseTests::flip_mends(std::int32_t h, double tolerance) const {
     const Label label = m_.label_at(h);
     if (m_.crease(h) || height(label, c, d) > tolerance) return false;
     const int now = turned_over(h / 3) + turned_over(g / 3);
-    const int then = !faces_outside(label, at(c), at(d), at(b), kFlat, 0) +
-                     !faces_outside(label, at(d), at(c), at(a), kFlat, 0);
+    const int then = turned_over(label, at(c), at(d), at(b)) + turned_over(label, at(d), at(c), at(a));
     return then < now && may_flip(h);
 }
 

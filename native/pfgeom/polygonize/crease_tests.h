@@ -29,7 +29,7 @@ class CreaseTests {
     bool merge_mends(std::int32_t h, double tolerance) const;
     bool turned_over(std::int32_t face) const {
         const Triangle& t = m_.mesh.faces()[face];
-        return !faces_outside(m_.label[face], at(t[0]), at(t[1]), at(t[2]), kFlat, 0);
+        return turned_over(m_.label[face], at(t[0]), at(t[1]), at(t[2]));
     }
     /// Does the triangle face the outside of the label's quadric at its corners?
     bool faces_outside(Label label, const Vec3& a, const Vec3& b, const Vec3& c, double thinnest,
@@ -40,6 +40,9 @@ class CreaseTests {
     static constexpr double kFlat = 1e-3;
 
     const Vec3& at(std::int32_t v) const { return m_.mesh.position[v]; }
+    bool turned_over(Label label, const Vec3& a, const Vec3& b, const Vec3& c) const {
+        return !faces_outside(label, a, b, c, kFlat, 0);
+    }
     double height(Label one, Label other, std::int32_t a, std::int32_t b) const;
     // Of p to the curve in which two quadrics meet; 0 if there is none within reach.
     double distance_to_curve(Label one, Label other, const Vec3& p, double reach) const;
