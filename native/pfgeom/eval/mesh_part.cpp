@@ -1,6 +1,12 @@
 #include "pfgeom/eval/mesh_part.h"
 
 namespace pfgeom {
+namespace {
+
+// Curved faces are divided until they are this share of the default mesh's chord tolerance from the surface.
+constexpr double kChordShare = 0.25;
+
+}  // namespace
 
 TriangleMesh mesh_of(const Object& object, const Fineness& fineness) {
     const auto& part = std::get<MeshPart>(object.shape);
@@ -14,6 +20,10 @@ TriangleMesh mesh_of(const Object& object, const Fineness& fineness) {
         mesh.vertices.push_back(object.frame.to_world(local));
     }
     return mesh;
+}
+
+TriangleMesh mesh_for_values(const Object& object, double diagonal) {
+    return mesh_of(object, {.chord = kChordShare * chord_of(object, diagonal)});
 }
 
 }  // namespace pfgeom

@@ -24,9 +24,6 @@ Solid nothing_but(const Sheet& sheet) {
              {Kind::intersect, 2, 3}}};
 }
 
-// Curved faces are divided until they are this share of the default mesh's chord tolerance from the surface.
-constexpr double kChordShare = 0.25;
-
 using Kind = CombinationStep::Kind;
 
 Vec3 corner_of(const Box& box, int corner) {
@@ -57,7 +54,7 @@ struct ModelField::Part {
             solid = std::make_unique<TreeField>(*tree);
             box = {frame.to_world(tree->box().lo), frame.to_world(tree->box().hi)};
         } else if (std::holds_alternative<MeshPart>(object.shape)) {
-            distance.emplace(mesh_of(object, {.chord = kChordShare * chord_of(object, diagonal)}));
+            distance.emplace(mesh_for_values(object, diagonal));
             box = distance->bounds();
         }
     }

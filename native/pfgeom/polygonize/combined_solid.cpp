@@ -23,8 +23,6 @@ constexpr std::size_t kMostNodes = 1 << 22;
 // Cells in which a field may be zero are at most this share of what it fills, as those of polygonize.cpp at
 // its default least depth.
 constexpr double kLargestCell = 1.0 / 16;
-// Curved faces are divided as for values at points (eval/model_field.cpp), so that both have the same inside.
-constexpr double kChordShare = 0.25;
 
 class Builder {
   public:
@@ -218,9 +216,9 @@ std::int32_t Builder::question_of(std::int32_t function, const Affine& cube) {
 void Builder::add_mesh(std::int32_t object, double diagonal, const Affine& back) {
     auto& mesh = meshes_[static_cast<std::size_t>(object)];
     if (!mesh) {
+        // The mesh of values at points, so that both have the same inside.
         const Object& o = model_.objects[static_cast<std::size_t>(object)];
-        mesh = std::make_shared<DistanceField>(mesh_of(o, {.chord = kChordShare * chord_of(o, diagonal)}),
-                                               task_);
+        mesh = std::make_shared<DistanceField>(mesh_for_values(o, diagonal), task_);
     }
     const Vec3 extent = mesh->bounds().extent();
     const double size = std::max({extent.x, extent.y, extent.z});
