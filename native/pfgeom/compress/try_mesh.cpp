@@ -99,6 +99,9 @@ std::optional<Outcome> search_rms(const Goal& goal, bool curved, std::size_t mos
     return best;
 }
 
+// What no look at the surface tells is some thousandths of the tolerance (armadillo at 1e-3: 1.0026 of it).
+constexpr double kFlatShare = 0.995;
+
 // Of less and less of the tolerance until one holds; the last always does.
 Outcome flat_with_less(const Goal& goal, const Task& task) {
     Outcome outcome;
@@ -110,7 +113,7 @@ Outcome flat_with_less(const Goal& goal, const Task& task) {
 }
 
 Outcome flat_by_max(const Goal& goal, const Task& task) {
-    Outcome outcome = attempt(goal, 1, false, task);
+    Outcome outcome = attempt(goal, kFlatShare, false, task);
     return outcome.holds ? std::move(outcome) : flat_with_less(goal, task);
 }
 
@@ -124,7 +127,7 @@ Outcome flat_by_rms(const Goal& goal, const Task& task) {
 Outcome best_by_max(const Goal& goal, const std::optional<MeshEstimate>& known, const Task& task) {
     Outcome curved = attempt(goal, 1, true, task);
     if (curved.holds && curved.bytes < (known ? *known : estimate_mesh(goal, task)).least) return curved;
-    Outcome flat = attempt(goal, 1, false, task);
+    Outcome flat = attempt(goal, kFlatShare, false, task);
     for (const double share : {0.96, 0.9}) {
         if (curved.holds || (flat.holds && curved.bytes >= flat.bytes)) break;
         curved = attempt(goal, share, true, task);

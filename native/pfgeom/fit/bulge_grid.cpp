@@ -94,8 +94,8 @@ class BulgeSnapper {
         const double forward = error_.forward(patch_, most);
         if (!(forward < most)) return kInfinity;
         if (limits_.metric == Metric::rms)
-            return error_.backward(patch_, limits_.backward) < kInfinity ? forward : kInfinity;
-        return std::max(forward, error_.backward(patch_, most));
+            return error_.stays_near(patch_, limits_.backward) ? forward : kInfinity;
+        return std::max(forward, error_.backward(patch_, most, forward));
     }
     bool snap(std::size_t row, double limit) {
         const EdgeAxes& axes = axes_[row];

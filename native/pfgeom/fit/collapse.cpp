@@ -132,7 +132,7 @@ void Collapser::take(const Entry& e) {
 
 // What measure() left in patch_.
 void Collapser::apply(std::int32_t u, std::int32_t v) {
-    if (error_.backward(patch_, limits_.backward) < kInfinity) replace(u, v, patch_);
+    if (error_.stays_near(patch_, limits_.backward)) replace(u, v, patch_);
 }
 
 void Collapser::replace(std::int32_t u, std::int32_t v, const Patch& patch) {
@@ -200,7 +200,7 @@ void relax_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimi
         else
             patch.move_to(error.fitted(patch));
         if (!mesh.keeps_orientation(patch) || !(error.forward(patch, before) < before)) continue;
-        if (error.backward(patch, limits.backward) == kInfinity) continue;
+        if (!error.stays_near(patch, limits.backward)) continue;
         error.commit(patch);
         mesh.move(v, patch);
     }

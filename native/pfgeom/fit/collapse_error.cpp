@@ -31,6 +31,17 @@ double weight_of_corner(const std::array<Vec3, 3>& t, const Vec3& q) {
     return area > 0 ? std::clamp(dot(cross(t[1] - q, t[2] - q), normal) / area, 0.0, 1.0) : 0;
 }
 
+// Points of a new face: of a curved one by their weights.
+struct CurvedFace {
+    CurvedTriangle face;
+    Vec3 operator()(const Vec3& weights) const { return face.at(weights); }
+    static constexpr bool flat() { return false; }
+};
+struct FlatFace {
+    Vec3 operator()(const Vec3& p) const { return p; }
+    static constexpr bool flat() { return true; }
+};
+
 }  // namespace
 
 CollapseError::CollapseError(const TriangleMesh& original, Metric metric, double tolerance, double spacing,
@@ -114,7 +125,7 @@ double CollapseError::forward(const Patch& patch, double limit) const {
 
 // The moving vertex and its edges: they stick out furthest. Where only one triangle of the patch has an edge
 // nothing else holds the surface back, and it is looked at closely.
-double CollapseError::rims(const Patch& patch, double limit) const {
+double CollapseError::rims(const Patch& patch, double limit, double enough) const {
     double worst = 0;
     for (std::size_t row = 0; row < patch.triangles.size(); ++row) {
         for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) {
@@ -129,7 +140,7 @@ double CollapseError::rims(const Patch& patch, double limit) const {
                 const double along = static_cast<double>(i) / n;
                 Vec3 at = p + (q - p) * along;
                 if (patch.curved()) at += patch.bulges[row][k == 1 ? 0 : 2] * (4 * along * (1 - along));
-                const ClosestPoint found = bvh_.closest(at, limit, hint);
+                const ClosestPoint found = bvh_.closest(at, limit, hint, enough);
                 if (found.face < 0) return kInfinity;
                 worst = std::max(worst, found.squared_distance);
                 hint = found.face;
@@ -139,47 +150,56 @@ double CollapseError::rims(const Patch& patch, double limit) const {
     return std::sqrt(worst);
 }
 
+// The distance from a face is convex, and so largest at a corner of a flat part.
+bool CollapseError::all_within(const std::array<Vec3, 3>& part, double limit, std::int32_t face) const {
+    return std::ranges::all_of(
+        part, [&](const Vec3& p) { return bvh_.squared_distance(p, face) <= limit * limit; });
+}
+
 // Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface
-// they change far more slowly, as slope_ has it. `surface` makes points of parameters.
+// they change far more slowly, as closeness_ has it. `surface` makes points of parameters.
 template <class Surface>
 double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double finest,
-                               double limit, std::int32_t hint) const {
+                               double limit, double enough, std::int32_t hint) const {
+    const double harmless = kHarmless * tolerance_;
     double worst = 0;
     std::vector<std::array<Vec3, 3>> parts_left{corners};
     while (!parts_left.empty()) {
         const auto [a, b, c] = parts_left.back();
         parts_left.pop_back();
         const Vec3 middle = surface((a + b + c) / 3);
-        const ClosestPoint found = bvh_.closest(middle, limit, hint);
+        const double reach =
+            std::sqrt(std::max({squared_norm(surface(a) - middle), squared_norm(surface(b) - middle),
+                                squared_norm(surface(c) - middle)}));
+        const double rise = reach < finest ? 0 : closeness_.slope * reach;
+        const ClosestPoint found = bvh_.closest(middle, limit, hint, std::min(enough, harmless - rise));
         if (found.face < 0) return kInfinity;
         hint = found.face;
         const double distance = std::sqrt(found.squared_distance);
         worst = std::max(worst, distance);
-        const double reach =
-            std::sqrt(std::max({squared_norm(surface(a) - middle), squared_norm(surface(b) - middle),
-                                squared_norm(surface(c) - middle)}));
-        if (reach < finest || distance + slope_ * reach <= std::max(worst, kHarmless * tolerance_)) continue;
+        const double most = std::max(worst, harmless);
+        if (distance + rise <= most || (surface.flat() && all_within({a, b, c}, most, found.face))) continue;
         const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
         parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
     return worst;
 }
 
-double CollapseError::backward(const Patch& patch, double limit) const {
-    double worst = rims(patch, limit);
+double CollapseError::backward(const Patch& patch, double limit, double enough) const {
+    double worst = rims(patch, limit, enough);
     for (std::size_t row = 0; row < patch.triangles.size() && worst <= limit; ++row) {
         const std::int32_t s = first_[static_cast<std::size_t>(patch.after[row])];
         const std::int32_t hint = s >= 0 ? samples_[static_cast<std::size_t>(s)].origin : -1;
         const std::array<Vec3, 3>& t = patch.triangles[row];
         if (patch.curved()) {
-            const CurvedTriangle curved = patch.surface(row);
-            const auto at = [&curved](const Vec3& weights) { return curved.at(weights); };
-            const double finest = std::max(finest_ * tolerance_, longest(t) / (kCurvedParts * parts_));
-            worst = std::max(worst, farthest({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, at, finest, limit, hint));
+            const CurvedFace at{patch.surface(row)};
+            const double finest =
+                std::max(closeness_.finest * tolerance_, longest(t) / (kCurvedParts * closeness_.parts));
+            worst = std::max(worst,
+                             farthest({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, at, finest, limit, enough, hint));
         } else {
-            const auto itself = [](const Vec3& p) { return p; };
-            const double finest = std::max(finest_ * tolerance_, longest(t) / parts_);
-            worst = std::max(worst, farthest(t, itself, finest, limit, hint));
+            const double finest = std::max(closeness_.finest * tolerance_, longest(t) / closeness_.parts);
+            worst = std::max(worst, farthest(t, FlatFace{}, finest, limit, enough, hint));
         }
     }
     return worst <= limit ? worst : kInfinity;

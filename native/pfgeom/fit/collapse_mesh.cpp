@@ -113,6 +113,14 @@ void CollapseMesh::patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) co
     }
 }
 
+void CollapseMesh::patch_of_face(std::int32_t f, Patch& patch) const {
+    patch.before = patch.after = {f};
+    patch.triangles = {corners(f)};
+    patch.bulges.clear();
+    if (curved()) patch.bulges = {bulges_[static_cast<std::size_t>(f)]};
+    patch.ends = {{face(f)[1], face(f)[2]}};
+}
+
 void CollapseMesh::patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3& p, Patch& patch) const {
     patch.before.clear();
     patch.after.clear();
@@ -182,16 +190,19 @@ std::int32_t CollapseMesh::split(std::int32_t u, std::int32_t v) {
         std::size_t k = corner_of(face(f), u);
         if (face(f)[(k + 1) % 3] != v) k = (k + 2) % 3;
         const auto [a, b, c] = turned(face(f), k);
-        const auto bulges = turned(bulges_[static_cast<std::size_t>(f)], k);
+        const auto bulges =
+            curved() ? turned(bulges_[static_cast<std::size_t>(f)], k) : std::array<Vec3, 3>{};
         const CurvedTriangle surface{{point(a), point(b), point(c)}, bulges};
         const Vec3 m = surface.at({0.5, 0.5, 0}), half = bulges[0] / 4;
         const Vec3 across = surface.at({0.25, 0.25, 0.5}) - (m + point(c)) * 0.5;
         points_.back() = m;
         const auto other = static_cast<std::int32_t>(faces_.size());
         faces_[static_cast<std::size_t>(f)] = {a, middle, c};
-        bulges_[static_cast<std::size_t>(f)] = {half, across, bulges[2]};
         faces_.push_back({middle, b, c});
-        bulges_.push_back({half, bulges[1], across});
+        if (curved()) {
+            bulges_[static_cast<std::size_t>(f)] = {half, across, bulges[2]};
+            bulges_.push_back({half, bulges[1], across});
+        }
         at_.back().insert(at_.back().end(), {f, other});
         std::replace(at_[static_cast<std::size_t>(b)].begin(), at_[static_cast<std::size_t>(b)].end(), f,
                      other);

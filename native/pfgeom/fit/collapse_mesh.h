@@ -35,6 +35,7 @@ class CollapseMesh {
     const std::vector<std::int32_t>& faces_at(std::int32_t v) const {
         return at_[static_cast<std::size_t>(v)];
     }
+    bool curved() const { return !bulges_.empty(); }
     std::size_t vertex_count() const { return points_.size(); }
     std::size_t face_count() const { return alive_; }
     std::array<Vec3, 3> corners(std::int32_t f) const {
@@ -53,6 +54,8 @@ class CollapseMesh {
     /// move keeps the bulges, a collapse makes those at v zero.
     void patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) const;
     void patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3& p, Patch& patch) const;
+    /// Face f as it is.
+    void patch_of_face(std::int32_t f, Patch& patch) const;
     /// No triangle of the patch is turned over, or folded onto a line.
     bool keeps_orientation(const Patch& patch) const;
 
@@ -60,7 +63,7 @@ class CollapseMesh {
     void move(std::int32_t v, const Patch& patch);
     void collapse(std::int32_t u, std::int32_t v, const Patch& patch);
 
-    /// Divides the curved faces at an edge at its middle, which leaves their surface as it is; returns the
+    /// Divides the faces at an edge at its middle, which leaves their surface as it is; returns the
     /// new vertex.
     std::int32_t split(std::int32_t u, std::int32_t v);
     /// Faces that there have ever been: no id of a face is as high.

@@ -1,9 +1,10 @@
 #include "pfgeom/fit/grid.h"
 
+#include "pfgeom/base/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace pfgeom {
@@ -53,7 +54,7 @@ class Snapper {
 
     /// Measures finely; moves what is over the limit, and its neighbours, from grid point to grid point while
     /// that makes the worst better.
-    bool mend(std::vector<std::int32_t> open, double limit, const Task& task) {
+    std::vector<std::int32_t> mend(std::vector<std::int32_t> open, double limit, const Task& task) {
         for (int round = 0; round < kMendingRounds && !open.empty(); ++round) {
             std::vector<std::int32_t> failed;
             for (const std::int32_t v : open) {
@@ -61,20 +62,23 @@ class Snapper {
                 if (mesh_.faces_at(v).empty() || holds(v, limit)) continue;
                 take_least_evil(v);
                 for (const std::int32_t w : mesh_.neighbours(v)) {
-                    if (!holds(w, limit)) take_least_evil(w);
+                    if (holds(w, limit)) continue;
+                    take_least_evil(w);
+                    failed.push_back(w);
                 }
                 failed.push_back(v);
             }
+            std::sort(failed.begin(), failed.end());
+            failed.erase(std::unique(failed.begin(), failed.end()), failed.end());
             open = std::move(failed);
         }
-        return open.empty();
+        return open;
     }
 
   private:
     bool holds(std::int32_t v, double limit) {
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
-        return error_.forward(patch_, limit) <= limit &&
-               error_.backward(patch_, limits_.backward) < kInfinity;
+        return error_.forward(patch_, limit) <= limit && error_.stays_near(patch_, limits_.backward);
     }
     Vec3 fitted_place() const {
         if (!patch_.curved()) return error_.fitted(patch_);
@@ -143,8 +147,7 @@ class Snapper {
             if (candidate.cost == kInfinity) break;
             q[w] = candidate.height;
             cost(v, q, limit);
-            if (error_.backward(patch_, limits_.backward * limit / limits_.forward) < kInfinity)
-                return take(v);
+            if (error_.stays_near(patch_, limits_.backward * limit / limits_.forward)) return take(v);
         }
         return false;
     }
@@ -171,8 +174,10 @@ class Snapper {
         for (const auto& [forward, q] : candidates) {
             if (!(forward < best.cost) || best.cost <= limits_.forward) break;
             cost(v, q, kInfinity);
-            const double backward = error_.backward(patch_, std::min(best.cost, 3 * limits_.backward));
-            const double worst = limits_.metric == Metric::max ? std::max(forward, backward) : forward;
+            const double most = std::min(best.cost, 3 * limits_.backward);
+            const bool by_max = limits_.metric == Metric::max;
+            const double backward = error_.backward(patch_, most, by_max ? forward : most);
+            const double worst = by_max ? std::max(forward, backward) : forward;
             if (backward < kInfinity && worst < best.cost) best = {worst, q};
         }
         cost(v, best.q, kInfinity);
@@ -187,6 +192,30 @@ class Snapper {
 };
 
 }  // namespace
+
+std::vector<std::int32_t> vertices_over(const CollapseMesh& mesh, const CollapseError& error,
+                                        const CollapseLimits& limits, const Task& task) {
+    constexpr std::size_t kChunk = 16;
+    const std::vector<std::int32_t> faces = mesh.faces_left();
+    std::vector<std::uint8_t> over(faces.size(), 0);
+    parallel_chunks(faces.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
+        Patch patch;
+        for (std::size_t i = begin; i < end; ++i) {
+            mesh.patch_of_face(faces[i], patch);
+            const bool near = error.forward(patch, limits.forward) <= limits.forward &&
+                              error.stays_near(patch, limits.backward);
+            over[i] = near ? 0 : 1;
+        }
+    });
+    std::vector<std::int32_t> vertices;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Triangle& t = mesh.face(faces[i]);
+        if (over[i] != 0) vertices.insert(vertices.end(), t.begin(), t.end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
 
 bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
                    bool persistent, const Task& task) {
@@ -207,15 +236,16 @@ bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimit
         --left;
     }
     if (limits.metric != Metric::max) return true;
-    if (!persistent && static_cast<double>(failed) > 4 + kHopeless * static_cast<double>(count)) return false;
-    error.measure_finely();
-    std::vector<std::int32_t> all(mesh.vertex_count());
-    std::iota(all.begin(), all.end(), 0);
-    return snapper.mend(std::move(all), limits.forward, task);
+    const bool fine = static_cast<double>(failed) <= 4 + kHopeless * static_cast<double>(count);
+    if (!fine && !persistent) return false;
+    error.look(kLook);
+    snapper.mend(vertices_over(mesh, error, limits, task), limits.forward, task);
+    return true;
 }
 
-bool mend_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
-                   std::vector<std::int32_t> open, const Task& task) {
+std::vector<std::int32_t> mend_vertices(CollapseMesh& mesh, CollapseError& error,
+                                        const CollapseLimits& limits, const Grid& grid,
+                                        std::vector<std::int32_t> open, const Task& task) {
     return Snapper(mesh, error, limits, grid).mend(std::move(open), limits.forward, task);
 }
 

@@ -1,4 +1,4 @@
-// The end of fitting a curved mesh part: what is still over the tolerance is mended where it is.
+// The end of fitting a mesh part: what is still over the tolerance is mended where it is.
 #pragma once
 
 #include "pfgeom/base/task.h"
@@ -8,9 +8,9 @@
 
 namespace pfgeom {
 
-/// Of a maximum. Gives `mesh`, which is on the grid, whole steps of the bulges and returns it as a part.
-/// Vertices move and edges are divided where its edges, or points that no sample stands for, are farther than
-/// `limits.forward` from the original.
+/// Returns `mesh`, which is on the grid, as a part; curved faces get whole steps of the bulges. If it is a
+/// maximum that counts, vertices move and edges are divided where it is farther than the limits from the
+/// original, at a closer look, or where points are that no sample stands for.
 Object mended_part(const TriangleMesh& original, CollapseMesh& mesh, CollapseError& error,
                    const CollapseLimits& limits, const Grid& grid, int bulge_code, const Task& task);
 

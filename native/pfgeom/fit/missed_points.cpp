@@ -14,32 +14,50 @@ namespace {
 // which the foot point on the curved one makes good.
 constexpr int kParts = 4;
 // How fast distances are taken to change (1 would be a proof), and the smallest part of a face that is looked
-// at, as shares of the limit and of the face's longest edge. The proof on the file's own bytes comes later.
-constexpr double kSlope = 0.7, kFinest = 0.1, kFinestPart = 1.0 / 64;
+// at, as shares of the limit and of the face's longest edge. Curved faces are looked at less closely, in half
+// the time: what is found in the proof on the file's own bytes a finer default mesh mends.
+struct Fineness {
+    double slope, finest, finest_part;
+};
+constexpr Fineness kOfFlat{1, 0.02, 1.0 / 128}, kOfCurved{0.7, 0.1, 1.0 / 64};
 
 constexpr std::size_t kChunk = 64;  // faces
 
 using Corners = std::array<Vec3, 3>;
 
-class CurvedSurface {
+class Surface {
   public:
-    CurvedSurface(const CollapseMesh& mesh, double limit, const Task& task)
-        : mesh_(mesh), limit_(limit), left_(mesh.faces_left()), bvh_(divided(), task) {}
+    Surface(const CollapseMesh& mesh, double limit, const Task& task)
+        : mesh_(mesh),
+          limit_(limit),
+          left_(mesh.faces_left()),
+          bvh_(mesh.curved() ? divided() : mesh.result(), task) {}
 
     // From p, a point of the original's face `origin`; measured out if it is beyond the limit.
     MissedPoint closest(const Vec3& p, std::int32_t origin, std::int32_t& hint) const {
         const ClosestPoint found = bvh_.closest(p, std::numeric_limits<double>::infinity(), hint);
         hint = found.face;
-        const std::size_t row = static_cast<std::size_t>(found.face / (kParts * kParts));
+        const int parts = mesh_.curved() ? kParts * kParts : 1;
+        const std::size_t row = static_cast<std::size_t>(found.face / parts);
         MissedPoint result{p, origin, left_[row], found.squared_distance};
-        if (result.squared > limit_ * limit_)
-            result.squared = std::min(result.squared, foot_point(p, surface(row)).squared);
+        if (mesh_.curved() && result.squared > limit_ * limit_)
+            result.squared = std::min(result.squared, foot_point(p, curved(row)).squared);
         return result;
     }
     double limit() const { return limit_; }
 
+    // Is all of the part within the limit of this one face? The distance from a flat one, which is convex, is
+    // largest at a corner.
+    bool within_limit_of(std::int32_t face, const Corners& part) const {
+        if (mesh_.curved()) return false;
+        const auto [a, b, c] = mesh_.corners(face);
+        return std::ranges::all_of(part, [&](const Vec3& p) {
+            return squared_norm(closest_point_on_triangle(p, a, b, c) - p) <= limit_ * limit_;
+        });
+    }
+
   private:
-    CurvedTriangle surface(std::size_t row) const {
+    CurvedTriangle curved(std::size_t row) const {
         const std::int32_t f = left_[row];
         return {mesh_.corners(f), {mesh_.bulge(f, 0), mesh_.bulge(f, 1), mesh_.bulge(f, 2)}};
     }
@@ -48,10 +66,10 @@ class CurvedSurface {
     TriangleMesh divided() const {
         TriangleMesh result;
         for (std::size_t row = 0; row < left_.size(); ++row) {
-            const CurvedTriangle curved = surface(row);
+            const CurvedTriangle whole = curved(row);
             const auto add = [&](int i, int j) {
                 const double v = static_cast<double>(i) / kParts, w = static_cast<double>(j) / kParts;
-                result.vertices.push_back(curved.at({1 - v - w, v, w}));
+                result.vertices.push_back(whole.at({1 - v - w, v, w}));
                 return static_cast<std::int32_t>(result.vertices.size()) - 1;
             };
             for (int i = 0; i < kParts; ++i) {
@@ -73,13 +91,14 @@ class CurvedSurface {
 
 class Search {
   public:
-    explicit Search(const CurvedSurface& surface) : surface_(surface), limit_(surface.limit()) {}
+    Search(const Surface& surface, const Fineness& fineness)
+        : surface_(surface), limit_(surface.limit()), fineness_(fineness) {}
 
     void look_along(const Corners& face, std::int32_t origin, std::vector<MissedPoint>& missed) {
         const double longest =
             std::sqrt(std::max({squared_norm(face[1] - face[0]), squared_norm(face[2] - face[1]),
                                 squared_norm(face[0] - face[2])}));
-        const double finest = std::max(kFinest * limit_, kFinestPart * longest);
+        const double finest = std::max(fineness_.finest * limit_, fineness_.finest_part * longest);
         open_.assign({face});
         while (!open_.empty()) {
             const auto [a, b, c] = open_.back();
@@ -90,15 +109,17 @@ class Search {
             if (distance > limit_) missed.push_back(found);
             const double reach = std::sqrt(
                 std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
-            if (reach < finest || distance + kSlope * reach <= limit_) continue;
+            if (reach < finest || distance + fineness_.slope * reach <= limit_) continue;
+            if (surface_.within_limit_of(found.face, {a, b, c})) continue;
             const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
             open_.insert(open_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
         }
     }
 
   private:
-    const CurvedSurface& surface_;
+    const Surface& surface_;
     double limit_;
+    Fineness fineness_;
     std::int32_t hint_ = -1;
     std::vector<Corners> open_;
 };
@@ -107,10 +128,10 @@ class Search {
 
 std::vector<MissedPoint> missed_points(const TriangleMesh& original, const CollapseMesh& mesh, double limit,
                                        const Task& task) {
-    const CurvedSurface surface(mesh, limit, task);
+    const Surface surface(mesh, limit, task);
     std::vector<std::vector<MissedPoint>> of_chunks((original.faces.size() + kChunk - 1) / kChunk);
     parallel_chunks(original.faces.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
-        Search search(surface);
+        Search search(surface, mesh.curved() ? kOfCurved : kOfFlat);
         for (std::size_t f = begin; f < end; ++f) {
             Corners corners;
             for (std::size_t k = 0; k < 3; ++k)

@@ -1,4 +1,4 @@
-// Where the original surface is farther from a mesh of curved faces than its samples have told.
+// Where the original surface is farther from a mesh of flat or curved faces than its samples have told.
 #pragma once
 
 #include "pfgeom/base/task.h"

@@ -4,6 +4,7 @@
 #include "pfgeom/fit/collapse.h"
 #include "pfgeom/fit/curved_part.h"
 #include "pfgeom/fit/grid.h"
+#include "pfgeom/fit/mend_patches.h"
 
 #include <algorithm>
 #include <array>
@@ -58,9 +59,10 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
         const Grid grid = Grid::around(box, step * goal);
         CollapseMesh snapped = work;
         CollapseError snapped_error = error;
-        const bool kept = snap_vertices(snapped, snapped_error, outer, grid, step == kSteps.back(), task);
-        object = part_on_grid(snapped.result(), grid);
-        if (kept) break;
+        if (!snap_vertices(snapped, snapped_error, outer, grid, step == kSteps.back(), task)) continue;
+        snapped_error.quantise(grid, 0);
+        object = mended_part(mesh, snapped, snapped_error, outer, grid, 0, task);
+        break;
     }
     task.report(1, "simplify");
     return object;

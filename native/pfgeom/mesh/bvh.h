@@ -45,9 +45,13 @@ class Bvh {
     explicit Bvh(const TriangleMesh& mesh, const Task& task = {});
 
     /// Closest point of the surface. `within`: only look this far. `hint`: a face that is probably close
-    /// (e.g. the answer of a neighbouring query), or -1; it changes the speed only.
+    /// (e.g. the answer of a neighbouring query), or -1; it changes the speed only, unless a point that is as
+    /// close as `enough` will do: then the first one found.
     ClosestPoint closest(const Vec3& p, double within = std::numeric_limits<double>::infinity(),
-                         std::int32_t hint = -1) const;
+                         std::int32_t hint = -1, double enough = -1) const;
+
+    /// To one face.
+    double squared_distance(const Vec3& p, std::int32_t face) const;
 
     /// Adds the faces that are within `distance` of p, in no particular but always the same order.
     void faces_within(const Vec3& p, double distance, std::vector<std::int32_t>& faces) const;

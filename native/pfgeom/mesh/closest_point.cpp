@@ -81,9 +81,11 @@ Vec3 closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, cons
     return a + ab * (vb * scale) + ac * (vc * scale);
 }
 
-ClosestPoint Bvh::closest(const Vec3& p, double within, std::int32_t hint) const {
+ClosestPoint Bvh::closest(const Vec3& p, double within, std::int32_t hint, double enough) const {
     ClosestPoint best;
     best.squared_distance = within * within;
+    const double squared_enough = enough < 0 ? -1 : enough * enough;
+    const auto will_do = [&] { return best.face >= 0 && best.squared_distance <= squared_enough; };
     const auto try_triangle = [&](std::int32_t i) {
         const Vec3* t = &corners_[3 * static_cast<std::size_t>(i)];
         const Vec3 q = closest_point_on_triangle(p, t[0], t[1], t[2]);
@@ -98,6 +100,7 @@ ClosestPoint Bvh::closest(const Vec3& p, double within, std::int32_t hint) const
     };
     if (nodes_.empty()) return {};
     if (hint >= 0 && hint < static_cast<std::int32_t>(position_.size())) try_triangle(position_[hint]);
+    if (will_do()) return best;
 
     // Rounding moves a distance d by some 1e-15 (d + size of the coordinates); its square by less than this.
     const double size = squared_norm(p) + squared_norm(max(bounds_.hi, -bounds_.lo));
@@ -112,12 +115,18 @@ ClosestPoint Bvh::closest(const Vec3& p, double within, std::int32_t hint) const
         const BvhStack::Entry entry = stack.pop();
         if (entry.distance > limit()) continue;
         for (std::int32_t i = entry.first; i < entry.first + entry.count; ++i) try_triangle(i);
+        if (will_do()) return best;
         if (entry.count > 0) continue;
         const BvhNode& node = nodes_[entry.first];
         stack.push_sorted(node, squared_distances(node, p), limit());
     }
     if (best.face < 0) return {};
     return best;
+}
+
+double Bvh::squared_distance(const Vec3& p, std::int32_t face) const {
+    const Vec3* t = &corners_[3 * static_cast<std::size_t>(position_[static_cast<std::size_t>(face)])];
+    return squared_norm(closest_point_on_triangle(p, t[0], t[1], t[2]) - p);
 }
 
 void Bvh::faces_within(const Vec3& p, double distance, std::vector<std::int32_t>& faces) const {

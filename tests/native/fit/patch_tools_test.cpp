@@ -1,9 +1,11 @@
 // What curved mesh parts are fitted with: the nearest face of a patch, division of edges, missed points,
 // lines.
 #include "pfgeom/base/random.h"
+#include "pfgeom/fit/collapse_error.h"
 #include "pfgeom/fit/collapse_mesh.h"
 #include "pfgeom/fit/feature_lines.h"
 #include "pfgeom/fit/foot_point.h"
+#include "pfgeom/fit/grid.h"
 #include "pfgeom/fit/missed_points.h"
 #include "pfgeom/fit/nearest_face.h"
 #include "shapes.h"
@@ -54,6 +56,75 @@ TEST(NearestFace, IsNoFartherThanAnyOfThem) {
     }
 }
 
+TEST(NearestFace, OfFlatOnesIsTheNearestOrOneBelowThePoint) {
+    const CollapseMesh mesh(shapes::sphere(1));
+    Patch patch;
+    mesh.patch_of_move(0, mesh.point(0), patch);
+    const double near = 0.05;
+    const NearestFace nearest(patch, near);
+    Random random(8);
+    for (int i = 0; i < 2000; ++i) {
+        Vec3 p = mesh.point(0);
+        for (int axis = 0; axis < 3; ++axis) p[axis] += random.uniform() - 0.5;
+        double least = 1e300;
+        for (const auto& t : patch.triangles)
+            least = std::min(least, squared_norm(closest_point_on_triangle(p, t[0], t[1], t[2]) - p));
+        const auto found = nearest(p, static_cast<std::size_t>(i) % patch.after.size(), -1);
+        EXPECT_GE(found.squared, least - 1e-15);
+        if (found.squared > near * near) {
+            EXPECT_NEAR(found.squared, least, 1e-15);
+        }
+        EXPECT_NEAR(squared_norm(p - found.point), found.squared, 1e-15);
+    }
+}
+
+TEST(CollapseError, WhatNeedsNotBeToldApartChangesNoAnswer) {
+    const TriangleMesh sphere = shapes::sphere(4);
+    const CollapseError error(sphere, Metric::max, 0.05, 0.05, {});
+    const CollapseMesh mesh(sphere);
+    Random random(9);
+    int within = 0;
+    for (int i = 0; i < 400; ++i) {
+        const auto v = static_cast<std::int32_t>(i);
+        Vec3 p = mesh.point(v);
+        for (int axis = 0; axis < 3; ++axis) p[axis] += 0.12 * random.uniform() - 0.06;
+        Patch patch;
+        mesh.patch_of_move(v, p, patch);
+        const double exact = error.backward(patch, 0.045, -1);
+        within += exact <= 0.045 ? 1 : 0;
+        EXPECT_EQ(error.stays_near(patch, 0.045), exact <= 0.045);
+        const double told = error.backward(patch, 0.045, 0.02);
+        EXPECT_EQ(std::max(told, 0.02), std::max(exact, 0.02));
+    }
+    EXPECT_GT(within, 50);
+    EXPECT_LT(within, 350);
+}
+
+TEST(VerticesOver, AreTheCornersOfFacesBeyondTheLimit) {
+    const TriangleMesh sphere = shapes::sphere(3);
+    CollapseMesh mesh(sphere);
+    CollapseError error(sphere, Metric::max, 0.01, 0.01, {});
+    const CollapseLimits limits{Metric::max, 0.01, 0.01, 2};
+    EXPECT_TRUE(vertices_over(mesh, error, limits, {}).empty());
+    Patch patch;
+    mesh.patch_of_move(5, mesh.point(5) * 1.02, patch);
+    error.commit(patch);
+    mesh.move(5, patch);
+    std::vector<std::int32_t> expected = mesh.neighbours(5);
+    expected.push_back(5);
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(vertices_over(mesh, error, limits, {}), expected);
+}
+
+TEST(CollapseMesh, DividesFlatFaces) {
+    CollapseMesh mesh(shapes::cube());
+    const TriangleMesh before = mesh.result();
+    const std::int32_t middle = mesh.split(mesh.face(0)[0], mesh.face(0)[1]);
+    EXPECT_EQ(mesh.face_count(), before.faces.size() + 2);
+    EXPECT_NEAR(surface_area(mesh.result()), surface_area(before), 1e-12);
+    EXPECT_EQ(mesh.faces_at(middle).size(), 4U);
+}
+
 TEST(CollapseMesh, DividingAnEdgeLeavesTheSurface) {
     CollapseMesh mesh = bulging_icosahedron();
     const CollapseMesh before = mesh;
@@ -91,6 +162,22 @@ TEST(MissedPoints, AreThoseFartherThanTheLimit) {
         const double distance = std::sqrt(foot_point(m.p, surface(mesh, m.face)).squared);
         EXPECT_GT(distance, 0.8 * worst);
         EXPECT_NEAR(std::sqrt(m.squared), distance, 1e-3);
+    }
+}
+
+TEST(MissedPoints, OfFlatFacesHardlyAnyIsLeft) {
+    const TriangleMesh sphere = shapes::sphere(4);
+    const CollapseMesh coarse(shapes::sphere(1));
+    const TriangleMesh flat = coarse.result();
+    const Bvh bvh(flat);
+    double worst = 0;
+    for (const Vec3& p : sphere.vertices) worst = std::max(worst, std::sqrt(bvh.closest(p).squared_distance));
+    EXPECT_TRUE(missed_points(sphere, coarse, 1.02 * worst, {}).empty());
+    const std::vector<MissedPoint> missed = missed_points(sphere, coarse, 0.97 * worst, {});
+    ASSERT_FALSE(missed.empty());
+    for (const MissedPoint& m : missed) {
+        EXPECT_GT(m.squared, 0.97 * 0.97 * worst * worst);
+        EXPECT_DOUBLE_EQ(m.squared, bvh.closest(m.p).squared_distance);
     }
 }
 
