@@ -348,7 +348,10 @@ class Compressor {
             IslandReport island;
             island.faces = static_cast<std::int64_t>(prepared_.islands[i].faces.size());
             const std::optional<Outcome>& outcome = outcome_of(i);
-            island.candidate = outcome ? outcome->candidate : "mesh";
+            island.candidate = is_object(i) ? outcome->candidate : "mesh";
+            const Object& object = is_object(i) ? outcome->object : model_.objects.back();
+            const auto* part = std::get_if<MeshPart>(&object.shape);
+            if (part != nullptr && part->curved()) island.candidate = "patches";
             island.copies =
                 outcome ? std::max<std::int64_t>(1, std::ssize(outcome->object.placements.list)) : 1;
             island.bytes =
