@@ -24,6 +24,8 @@ constexpr double kCopyShare = 0.25;
 constexpr double kShares[] = {1.0, 0.95, 0.7};
 // From so many islands on they are worked on side by side, one thread each.
 constexpr std::size_t kManyIslands = 8;
+// Frames reach to 2^120, and the steps of grids and lengths to 2^-120.
+constexpr double kLargest = 1e32;
 constexpr double kFitting = 0.8;  // of the progress
 
 class Compressor {
@@ -38,6 +40,8 @@ class Compressor {
         check_mesh(input_);
         check_materials(materials_, input_.faces.size());
         const double size = diagonal(input_);
+        if (!(size >= 1 / kLargest && size <= kLargest))
+            throw InvalidInput("the mesh's diagonal is not between 1e-32 and 1e32, which a file can hold");
         tolerance_ = options_.tolerance * (options_.relative ? size : 1.0);
         prepared_ = prepare_mesh(input_, kSeamShare * tolerance_);
         task_.report(0.02, "fit");
