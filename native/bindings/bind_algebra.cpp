@@ -5,11 +5,13 @@
 #include "pfgeom/algebra/algebra.h"
 #include "pfgeom/base/error.h"
 #include "pfgeom/codec/codec.h"
+#include "pfgeom/compress/compress.h"
 
 #include <pybind11/stl.h>
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace py = pybind11;
@@ -47,6 +49,16 @@ ModelPointer transformed_by(const ModelPointer& handle, const std::array<double,
         }
         return handle_of(transformed(handle->model(), map));
     });
+}
+
+ModelPointer offset_by(const ModelPointer& handle, double distance, double tolerance, bool relative, bool rms,
+                       std::uint8_t effort, int threads, py::object progress, const CancelToken* cancel) {
+    const CompressOptions options{tolerance, relative, rms ? Metric::rms : Metric::max,
+                                  static_cast<Effort>(effort)};
+    Job job(threads, std::move(progress), cancel);
+    Compressed result =
+        job.run([=](const Task& task) { return offset(handle->model(), distance, options, task); });
+    return std::make_shared<ModelHandle>(std::move(result.model), std::move(result.bytes));
 }
 
 /// In words: operands by number, operations as Python writes them.
@@ -101,6 +113,9 @@ py::object describe_combination(const ModelHandle& handle) {
 void bind_algebra(py::module_& m) {
     m.def("combined", &combined, py::arg("a"), py::arg("b"), py::arg("operation"));
     m.def("transformed", &transformed_by, py::arg("model"), py::arg("matrix"));
+    m.def("offset", &offset_by, py::arg("model"), py::arg("distance"), py::arg("tolerance"),
+          py::arg("relative"), py::arg("rms"), py::arg("effort"), py::arg("threads"), py::arg("progress"),
+          py::arg("cancel"));
     m.def("combination", &describe_combination, py::arg("model"));
 }
 

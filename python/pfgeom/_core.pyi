@@ -100,6 +100,17 @@ def combination(model: Model) -> dict[str, Any] | None: ...
 def combined(a: Model, b: Model, operation: str) -> Model: ...
 def decode(data: bytes) -> Model: ...
 def nine_points(points: _Float64) -> _Float64: ...
+def offset(
+    model: Model,
+    distance: float,
+    tolerance: float,
+    relative: bool,
+    rms: bool,
+    effort: int,
+    threads: int,
+    progress: _Progress,
+    cancel: CancelToken | None,
+) -> Model: ...
 def raycast(
     model: Model,
     origins: _Float64,

@@ -27,6 +27,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_combine(commands)
     _add_transform(commands)
+    _add_offset(commands)
     return parser
 
 
@@ -39,13 +40,7 @@ def _add_compress(commands: Any) -> None:
         help="allowed deviation, as a share of the bounding box's diagonal (default 1e-3)",
     )  # fmt: skip
     _add_absolute(command)
-    command.add_argument(
-        "--metric", choices=("max", "rms"), default="max", help="what the tolerance limits (default max)"
-    )
-    command.add_argument(
-        "--effort", choices=("fast", "normal", "best"), default="normal",
-        help="how long to look for fewer bytes within the same tolerance (default normal); changes set trees only",
-    )  # fmt: skip
+    _add_fit(command)
     command.add_argument("--no-materials", dest="materials", action="store_false", help="leave materials out")
     _add_common(command)
 
@@ -156,8 +151,34 @@ def _add_transform(commands: Any) -> None:
     command.add_argument("--quiet", action="store_true", help="no table")
 
 
+def _add_offset(commands: Any) -> None:
+    command = commands.add_parser("offset", help="a .pfg file grown or shrunk by a distance, as functions fitted anew")
+    command.add_argument("input", metavar="IN.pfg")
+    command.add_argument("output", metavar="OUT.pfg", type=_path_ending(".pfg"))
+    command.add_argument(
+        "--distance", type=float, required=True, metavar="D", help="in the model's units; negative: shrunk"
+    )
+    command.add_argument(
+        "--tolerance", type=_positive, default=1e-3, metavar="T",
+        help="allowed deviation from the exact offset, as a share of the model's diagonal (default 1e-3)",
+    )  # fmt: skip
+    _add_absolute(command)
+    _add_fit(command)
+    _add_common(command)
+
+
 def _add_output(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="OUT.pfg", type=_path_ending(".pfg"), required=True)
+
+
+def _add_fit(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--metric", choices=("max", "rms"), default="max", help="what the tolerance limits (default max)"
+    )
+    command.add_argument(
+        "--effort", choices=("fast", "normal", "best"), default="normal",
+        help="how long to look for fewer bytes within the same tolerance (default normal); changes set trees only",
+    )  # fmt: skip
 
 
 def _add_absolute(command: argparse.ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""The command line: compress, decompress, info, compare, render, report, combine, transform.
+"""The command line: compress, decompress, info, compare, render, report, combine, transform, offset.
 
 Exit codes: 0 done, 1 failed (one sentence on stderr), 2 wrong usage, 130 interrupted. Results go to stdout, as a
 table or with ``--json`` as one object; the progress bar goes to stderr, if that is a terminal.
@@ -44,6 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         "report": run_report,
         "combine": run_combine,
         "transform": run_transform,
+        "offset": run_offset,
     }
     try:
         commands[args.command](args)
@@ -171,6 +172,23 @@ def run_transform(args: argparse.Namespace) -> None:
     model = load(args.input).transformed(matrix_of(args))
     model.save(args.output)
     _print(args, {"input": args.output, **model.info()}, tables.info)
+
+
+def run_offset(args: argparse.Namespace) -> None:
+    _check_target(args.output)
+    model = load(args.input)
+    with progress_bar(quiet=args.quiet) as progress:
+        result = model.offset(
+            args.distance,
+            tolerance=args.tolerance,
+            relative=not args.absolute,
+            metric=args.metric,
+            effort=args.effort,
+            threads=args.threads,
+            progress=progress,
+        )
+    result.save(args.output)
+    _print(args, {"input": args.output, **result.info()}, tables.info)
 
 
 def matrix_of(args: argparse.Namespace) -> NDArray[np.float64]:

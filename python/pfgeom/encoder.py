@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import logging
-import math
 from typing import Any, Literal
 
 from . import _core
 from .meshes import as_mesh
 from .model import Model
+from .options import EFFORTS, check_options
 from .tasks import CancelToken, Progress, check_task
 
 _log = logging.getLogger("pfgeom")
-
-#: In the order of the native enumeration.
-EFFORTS = ("fast", "normal", "best")
 
 
 def compress(
@@ -94,12 +91,7 @@ def compress(
     >>> model = pfgeom.compress(vertices, faces, tolerance=1e-3)
     >>> model.save("shape.pfg")
     """
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise ValueError(f"tolerance must be positive, not {tolerance}")
-    if metric not in ("max", "rms"):
-        raise ValueError(f"metric must be 'max' or 'rms', not {metric!r}")
-    if effort not in EFFORTS:
-        raise ValueError(f"effort must be 'fast', 'normal' or 'best', not {effort!r}")
+    check_options(tolerance, metric, effort)
     check_task(threads, progress, cancel)
     mesh = as_mesh(vertices, faces, materials, material_names)
     core, report = _core.compress(

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from copy import deepcopy
 from functools import cached_property
 from operator import index
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,7 @@ from . import _core
 from .errors import FormatError
 from .meshes import Mesh, native_path
 from .normals import corner_normals
+from .options import EFFORTS, check_options
 from .pictures import Picture, RayHits, as_vector, slope_of_view
 from .tasks import CancelToken, Progress, check_task
 
@@ -516,6 +517,55 @@ class Model:
         if rows.shape not in ((4, 4), (3, 4)) or (len(rows) == 4 and rows[3].tolist() != [0, 0, 0, 1]):
             raise ValueError("a transform is a (3, 4) matrix, or (4, 4) with the last row 0 0 0 1")
         return Model(_core.transformed(self._core, rows[:3].ravel().tolist()))
+
+    def offset(
+        self,
+        distance: float,
+        *,
+        tolerance: float = 1e-3,
+        relative: bool = True,
+        metric: Literal["max", "rms"] = "max",
+        effort: Literal["fast", "normal", "best"] = "normal",
+        threads: int = 0,
+        progress: Progress | None = None,
+        cancel: CancelToken | None = None,
+    ) -> Model:
+        """This model grown by a distance, or shrunk if it is negative, as functions that are fitted anew.
+
+        No quadric's offset is a quadric but for planes, spheres and a few more. So the surface where the distance to
+        this model's surface is ``distance`` is refitted within the tolerance. `bound_mesh` and `rms` of the result are
+        measured against the exact offset of this model's default mesh; what bounds this model's own error may come on
+        top. Where objects meet, distances count from the surface of their union.
+
+        Parameters
+        ----------
+        distance
+            In this model's units.
+        tolerance
+            Allowed deviation, both ways, as a share of this model's `diagonal`; a length if ``relative`` is False.
+        metric, effort, threads, progress, cancel
+            As for `pfgeom.compress`.
+
+        Returns
+        -------
+        Model
+            Without materials, names and a place in the world.
+
+        Raises
+        ------
+        ValueError
+            An option is not valid, an object is an open surface, or the offset leaves nothing.
+        LimitError
+            The offset has more triangles than one call may make.
+        Cancelled
+            The token was set.
+        """
+        if not math.isfinite(distance):
+            raise ValueError(f"distance must be finite, not {distance}")
+        check_options(tolerance, metric, effort)
+        check_task(threads, progress, cancel)
+        options = tolerance, relative, metric == "rms", EFFORTS.index(effort)
+        return Model(_core.offset(self._core, distance, *options, threads, progress, cancel))
 
     @cached_property
     def combination(self) -> dict[str, Any] | None:

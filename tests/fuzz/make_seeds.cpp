@@ -1,5 +1,5 @@
 // Writes the seeds of the fuzz targets: make_fuzz_seeds FOLDER
-#include "codec/random_model.h"
+#include "combinations.h"
 #include "pfgeom/codec/byte_writer.h"
 #include "pfgeom/codec/codec.h"
 #include "pfgeom/codec/header.h"
@@ -51,8 +51,13 @@ int main(int argc, char** argv) {
     const fs::path folder = argv[1];
     write_model(folder, "ball", pfgeom::test::ball());
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-        write_model(folder, "model" + std::to_string(seed), pfgeom::test::random_model(seed));
+        const pfgeom::Model model = pfgeom::test::random_model(seed);
+        write_model(folder, "model" + std::to_string(seed), model);
+        if (seed % 4 == 0)
+            write_model(folder, "painted" + std::to_string(seed), pfgeom::test::painted(model, seed));
     }
+    for (std::uint64_t seed = 0; seed < 10; ++seed)
+        write_model(folder, "combination" + std::to_string(seed), pfgeom::test::random_combination(seed));
     for (int last_level = 2; last_level < 5; ++last_level) {
         pfgeom::Random random(static_cast<std::uint64_t>(last_level));
         pfgeom::Model model = pfgeom::test::ball();

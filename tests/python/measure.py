@@ -32,6 +32,32 @@ def two_sided(mesh_a, mesh_b, count=1500):
     return max(there.max(), back.max()), max(np.sqrt(np.mean(there[:count] ** 2)), np.sqrt(np.mean(back[:count] ** 2)))
 
 
+def offset_points(vertices, faces, distance, count=1500, seed=1):
+    """Points of the exact offset of a closed mesh: straight from its faces, edges and corners, with nothing nearer."""
+    random = np.random.default_rng(seed)
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(normals, axis=1)
+    normals /= np.where(area > 0, area, 1)[:, None]
+    at_face = random.choice(len(faces), count, p=area / area.sum())
+    at_rim = random.choice(len(faces), 2 * count, p=area / area.sum())
+    on_face = np.einsum("ij,ijk->ik", random.dirichlet([1, 1, 1], count), corners[at_face])
+    share = np.where(np.arange(2 * count) % 2, random.random(2 * count), 0)[:, None]  # along an edge, or its end
+    on_rim = corners[at_rim, 0] * (1 - share) + corners[at_rim, 1] * share
+    away = random.normal(size=(2 * count, 3))
+    away /= np.linalg.norm(away, axis=1, keepdims=True)
+    away *= np.where(np.einsum("ij,ij->i", away, normals[at_rim]) < 0, -1, 1)[:, None]  # to the outside
+    points = np.concatenate([on_face + distance * normals[at_face], on_rim + distance * away])
+    return points[distances(points, vertices, faces) >= abs(distance) * (1 - 1e-9)]
+
+
+def from_offset(result, mesh, distance, count=1500):
+    """How far a result is from the exact offset of a closed mesh: the result's points, and the exact ones."""
+    there = np.abs(distances(sample(*result, count), *mesh) - abs(distance))
+    back = distances(offset_points(*mesh, distance, count), *result)
+    return there.max(), back.max()
+
+
 def diagonal(vertices):
     return float(np.linalg.norm(np.ptp(vertices, axis=0)))
 

@@ -24,6 +24,8 @@ constexpr double kCopyShare = 0.25;
 constexpr double kShares[] = {1.0, 0.95, 0.7};
 // From so many islands on they are worked on side by side, one thread each.
 constexpr std::size_t kManyIslands = 8;
+// Frames reach to 2^120, and the steps of grids and lengths to 2^-120.
+constexpr double kLargest = 1e32;
 constexpr double kFitting = 0.8;  // of the progress
 
 class Compressor {
@@ -38,6 +40,8 @@ class Compressor {
         check_mesh(input_);
         check_materials(materials_, input_.faces.size());
         const double size = diagonal(input_);
+        if (!(size >= 1 / kLargest && size <= kLargest))
+            throw InvalidInput("the mesh's diagonal is not between 1e-32 and 1e32, which a file can hold");
         tolerance_ = options_.tolerance * (options_.relative ? size : 1.0);
         prepared_ = prepare_mesh(input_, kSeamShare * tolerance_);
         task_.report(0.02, "fit");
@@ -348,7 +352,10 @@ class Compressor {
             IslandReport island;
             island.faces = static_cast<std::int64_t>(prepared_.islands[i].faces.size());
             const std::optional<Outcome>& outcome = outcome_of(i);
-            island.candidate = outcome ? outcome->candidate : "mesh";
+            island.candidate = is_object(i) ? outcome->candidate : "mesh";
+            const Object& object = is_object(i) ? outcome->object : model_.objects.back();
+            const auto* part = std::get_if<MeshPart>(&object.shape);
+            if (part != nullptr && part->curved()) island.candidate = "patches";
             island.copies =
                 outcome ? std::max<std::int64_t>(1, std::ssize(outcome->object.placements.list)) : 1;
             island.bytes =

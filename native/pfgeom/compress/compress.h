@@ -28,7 +28,7 @@ struct CompressOptions {
 /// What became of one island.
 struct IslandReport {
     std::int64_t faces = 0;
-    std::string candidate;    ///< "quadric", "sheet", "tree", "hierarchy" or "mesh"
+    std::string candidate;    ///< "quadric", "sheet", "tree", "hierarchy", "mesh" or "patches"
     std::int64_t copies = 1;  ///< so many islands, this one included, are one object
     double bytes = 0;         ///< estimated: objects share one stream, copies one pattern
 };
@@ -61,6 +61,16 @@ Compressed compress(const TriangleMesh& mesh, const CompressOptions& options, co
 /// The same functions, and materials of the surface. The promise is about the surface; its materials are
 /// fitted within the tolerance and measured.
 Compressed compress(const PaintedMesh& mesh, const CompressOptions& options, const Task& task = {});
+
+/// The model grown by the distance, or shrunk where that is negative (in the model's units): its surface is
+/// where the distance to the surface between inside and outside, as the default mesh has it, is that. No
+/// quadric's offset is a quadric but for planes, spheres and a few more, so functions are fitted anew, within
+/// the tolerance of that surface; a relative one is a share of the model's diagonal. What the result's
+/// promise says is about the offset of the default mesh (of a maximum, as measured at samples): what bounds
+/// the model's own error may come on top. Materials, names and labels are dropped; `report` is about the mesh
+/// of the offset that was compressed. Throws InvalidInput if the model has an open surface, or nothing is
+/// left; LimitExceeded, Cancelled.
+Compressed offset(const Model& model, double distance, CompressOptions options, const Task& task = {});
 
 struct MeshOptions {
     std::optional<double> tolerance;  ///< extra error of the mesh against the functions, in the mesh's units

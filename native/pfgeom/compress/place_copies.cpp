@@ -2,6 +2,7 @@
 
 #include "pfgeom/codec/placement_codec.h"
 #include "pfgeom/function/frame.h"
+#include "pfgeom/function/moved_box.h"
 
 #include <algorithm>
 #include <array>
@@ -24,10 +25,8 @@ class CopyPlacer {
   public:
     CopyPlacer(std::span<const Similarity> places, const Box& box, const Vec3& centre, double error)
         : places_(places), centre_(centre), error_(error), turns_(places.size()) {
-        for (std::size_t i = 0; i < 8; ++i) {
-            corners_[i] = Vec3{(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y,
-                               (i & 4) != 0 ? box.hi.z : box.lo.z} -
-                          centre;
+        for (unsigned i = 0; i < 8; ++i) {
+            corners_[i] = corner_of(box, i) - centre;
             radius_ = std::max(radius_, norm(corners_[i]));
         }
         for (const Similarity& s : places) turns_of_.push_back(turn_of(s));

@@ -1,19 +1,16 @@
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/limits.h"
 #include "pfgeom/compress/compress.h"
+#include "pfgeom/compress/inside_mesh.h"
 #include "pfgeom/compress/object_mesh.h"
-#include "pfgeom/eval/model_field.h"
-#include "pfgeom/polygonize/polygonize.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace pfgeom {
 namespace {
 
-constexpr int kMostDepthOfAll = 16;  // of a combination: of objects of very different sizes
 constexpr int kLeastResolution = 8, kMostResolution = 4096;
 
 void check_options(const MeshOptions& options) {
@@ -82,48 +79,6 @@ PaintedMesh mesh_of_operand(const Model& model, const CombinationNode& operand, 
     return result;
 }
 
-// Of all copies of all objects of all operands.
-struct Extremes {
-    double chord = std::numeric_limits<double>::infinity(), half = chord;
-};
-
-Extremes extremes_of(const Model& model, const std::vector<CombinationNode>& tree) {
-    Extremes least;
-    for (const CombinationNode& node : tree) {
-        const double stretch = node.moved ? most_stretch(node.place) : 1;
-        for (std::int32_t i = node.first; i < node.last; ++i) {
-            const Object& object = model.objects[static_cast<std::size_t>(i)];
-            const double scale = stretch * largest_scale(object);
-            least.chord = std::min(least.chord, chord_of(object, node.diagonal) * scale);
-            least.half = std::min(least.half, object.frame.half() * scale);
-        }
-    }
-    return least;
-}
-
-// One cube for all. Without a tolerance the finest of the objects' chords serves; cells may be as fine as
-// each object's own would be.
-TriangleMesh mesh_of_combination(const Model& model, const std::vector<CombinationNode>& tree,
-                                 const MeshOptions& options, const Task& task) {
-    const Box box = ModelField(model).bounds();
-    const Vec3 extent = box.hi - box.lo;
-    if (!(extent.x > 0 && extent.y > 0 && extent.z > 0)) return {};
-    const Frame frame = Frame::around(box);
-    const Extremes least = extremes_of(model, tree);
-    PolygonizeOptions how;
-    how.min_depth = kLeastDepth;
-    how.max_depth =
-        std::min(kMostDepth + depth_for(frame.half(), 2 * least.half) - kLeastDepth, kMostDepthOfAll);
-    how.tolerance = (options.tolerance ? *options.tolerance : least.chord) / frame.half();
-    if (options.resolution) {
-        const double cell = std::max({extent.x, extent.y, extent.z}) / *options.resolution;
-        how.min_depth = how.max_depth = depth_for(frame.half(), cell);
-    }
-    TriangleMesh mesh = polygonize_combination(model, frame, how, task);
-    for (Vec3& v : mesh.vertices) v = frame.to_world(v);
-    return mesh;
-}
-
 // Set operations do not keep materials.
 PaintedMesh whole_mesh(const Model& model, const MeshOptions& options, bool painted, const Task& task) {
     check_options(options);
@@ -132,7 +87,7 @@ PaintedMesh whole_mesh(const Model& model, const MeshOptions& options, bool pain
     if (tree.back().is_operand())
         all = mesh_of_operand(model, tree.back(), options, painted, task);
     else
-        all.mesh = mesh_of_combination(model, tree, options, task);
+        all.mesh = mesh_of_inside(model, options, task);
     if (painted) all.materials.names = model.materials.names;
     task.report(1, "polygonize");
     return all;

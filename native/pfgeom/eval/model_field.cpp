@@ -4,12 +4,12 @@
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/solid_field.h"
 #include "pfgeom/eval/tree_field.h"
+#include "pfgeom/function/moved_box.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace pfgeom {
 namespace {
@@ -25,11 +25,6 @@ Solid nothing_but(const Sheet& sheet) {
 }
 
 using Kind = CombinationStep::Kind;
-
-Vec3 corner_of(const Box& box, int corner) {
-    return {(corner & 1) != 0 ? box.hi.x : box.lo.x, (corner & 2) != 0 ? box.hi.y : box.lo.y,
-            (corner & 4) != 0 ? box.hi.z : box.lo.z};
-}
 
 }  // namespace
 
@@ -105,8 +100,7 @@ struct ModelField::Part {
 
     Box bounds() const {
         Box all;
-        for (const Similarity& s : copies)
-            for (int corner = 0; corner < 8; ++corner) all.grow(s.apply(corner_of(box, corner)));
+        for (const Similarity& s : copies) all.grow(box_of_image(box, s));
         return all;
     }
 };
@@ -167,8 +161,7 @@ ModelField::Node ModelField::node_of(const CombinationNode& what) const {
     node.back = inverse_of(what.place);
     node.stretch = 1 / most_stretch(node.back);
     node.reach *= node.stretch / most_stretch(what.place);
-    const Box before = std::exchange(node.box, {});
-    for (int corner = 0; corner < 8; ++corner) node.box.grow(what.place.apply(corner_of(before, corner)));
+    node.box = box_of_image(node.box, what.place);
     return node;
 }
 

@@ -9,14 +9,15 @@
 
 namespace pfgeom {
 
-/// Σ w (n·x + d)² over planes.
+/// Σ w (n·(x - origin) + d)² over planes. Those that are added up have one origin.
 struct PlaneQuadric {
+    Vec3 origin;
     Symmetric3 a;
     Vec3 b;
     double c = 0, weight = 0;
 
     void add(const Vec3& normal, const Vec3& point, double w) {
-        const double d = -dot(normal, point);
+        const double d = -dot(normal, point - origin);
         a.add(normal, w);
         b += normal * (w * d);
         c += w * d * d;
@@ -26,12 +27,15 @@ struct PlaneQuadric {
         a += o.a, b += o.b, c += o.c, weight += o.weight;
         return *this;
     }
-    double operator()(const Vec3& x) const { return std::max(dot(x, a * x) + 2 * dot(b, x) + c, 0.0); }
+    double operator()(const Vec3& at) const {
+        const Vec3 x = at - origin;
+        return std::max(dot(x, a * x) + 2 * dot(b, x) + c, 0.0);
+    }
     /// Where it is least; along directions that it leaves open, as near to `middle` as possible.
     Vec3 least(const Vec3& middle) const {
         Symmetric3 system = a;
         system.add_diagonal(1e-3 * a.trace());
-        return middle - system.solve(a * middle + b);
+        return middle - system.solve(a * (middle - origin) + b);
     }
 };
 

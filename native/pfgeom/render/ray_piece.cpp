@@ -1,5 +1,7 @@
 #include "pfgeom/render/ray_piece.h"
 
+#include "pfgeom/function/moved_box.h"
+
 #include <limits>
 
 namespace pfgeom {

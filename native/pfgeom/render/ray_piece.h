@@ -31,16 +31,4 @@ struct RayPiece {
     Vec3 to_target(const Vec3& world) const;
 };
 
-/// Of all corners of the box, moved.
-template <class Map>
-Box box_of_image(const Box& box, const Map& map) {
-    Box all;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        all.grow(
-            map.apply({(corner & 1U) != 0 ? box.hi.x : box.lo.x, (corner & 2U) != 0 ? box.hi.y : box.lo.y,
-                       (corner & 4U) != 0 ? box.hi.z : box.lo.z}));
-    }
-    return all;
-}
-
 }  // namespace pfgeom

@@ -1,10 +1,12 @@
 #include "pfgeom/report/function_list.h"
 
 #include "pfgeom/eval/tree_surface.h"
+#include "pfgeom/function/moved_box.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 
 namespace pfgeom {
 namespace {
@@ -15,17 +17,37 @@ bool has_angles(Kind kind) {
     return kind == Kind::circular_cone || kind == Kind::elliptic_cone || kind == Kind::crossing_planes;
 }
 
-// Where the functions of an object lie: in the first of its copies.
+// Where the functions of an object lie: in the first of its copies. What an operand's transform shears
+// becomes other quadrics, in a cube of their own.
 struct Place {
     Frame frame;
     Similarity first;
+    std::optional<Affine> sheared;  // from the object's cube to this place's
     std::int32_t copies = 1;
 
-    Place(const Object& object, const std::optional<Similarity>& operand, std::int32_t uses)
+    Place(const Object& object, const std::optional<Affine>& operand, std::int32_t uses)
         : frame(object.frame) {
         const std::vector<Similarity> all = copies_of(object);
-        first = operand ? composed(*operand, all.front()) : all.front();
         copies = uses * static_cast<std::int32_t>(all.size());
+        first = all.front();
+        if (!operand) return;
+        const Affine moved = composed(*operand, affine_of(first));
+        if (const std::optional<Similarity> whole = similarity_of(moved)) {
+            first = *whole;
+            return;
+        }
+        const Affine to_world = composed(moved, affine_of(frame));
+        frame = Frame::around(box_of_image({{-1, -1, -1}, {1, 1, 1}}, to_world));
+        first = {};
+        sheared = composed(inverse_of(affine_of(frame)), to_world);
+    }
+    Quadric seen(const Quadric& quadric) const {
+        return sheared ? substituted(quadric, inverse_of(*sheared)) : quadric;
+    }
+    std::vector<Vec3> seen(std::vector<Vec3> points) const {
+        if (sheared)
+            for (Vec3& p : points) p = sheared->apply(p);
+        return points;
     }
     double half() const { return frame.half() * first.scale; }  // of the cube, in the world
 
@@ -39,17 +61,18 @@ struct Place {
     }
 };
 
-// Does the solid lie on the far side, seen from the centre or the axis?
-bool is_hollow(const QuadricShape& shape, const Quadric& quadric, const QuadricPatch& patch) {
+// Does the solid lie on the far side, seen from the centre or the axis? `inside`: is the positive side
+// inside?
+bool is_hollow(const QuadricShape& shape, const Quadric& quadric, std::span<const Vec3> points, bool inside) {
     const bool around_axis = shape.kind == Kind::circular_cylinder || shape.kind == Kind::circular_cone;
     if (!around_axis && shape.kind != Kind::sphere) return false;
     double outwards = 0;  // towards the positive side
-    for (const Vec3& p : patch.points) {
+    for (const Vec3& p : points) {
         Vec3 d = p - shape.centre;
         if (around_axis) d = d - dot(d, shape.axes[0]) * shape.axes[0];
         outwards += dot(normalized(quadric.gradient(p)), normalized(d));
     }
-    return (outwards > 0) == (2 * patch.area_above > patch.area);
+    return (outwards > 0) == inside;
 }
 
 // Where the quadric is: a sill's ellipsoid, ten times as long as wide, has few points on a grid of the whole
@@ -85,13 +108,13 @@ class FunctionLister {
     }
 
   private:
-    // As the first of the operands that it belongs to lies; where that is sheared, as it was before.
+    // As the first of the operands that it belongs to lies.
     Place place_of(const Object& object) const {
-        std::optional<Similarity> operand;
+        std::optional<Affine> operand;
         std::int32_t uses = 0;
         for (const CombinationNode& node : combination_tree(model_)) {
             if (!node.is_operand() || object_ < node.first || object_ >= node.last) continue;
-            if (uses++ == 0 && node.moved) operand = similarity_of(node.place);
+            if (uses++ == 0 && node.moved) operand = node.place;
         }
         return {object, operand, uses};
     }
@@ -101,15 +124,16 @@ class FunctionLister {
         const double half = place.half(), tolerance = model_.promise.tolerance / half;
         for (std::size_t q = 0; q < tree.quadrics.size(); ++q) {
             task_.check();
-            const Quadric& quadric = tree.quadrics[q].quadric;
             const QuadricPatch& patch = surface.patches[q];
-            const QuadricShape shape = shape_of(quadric, patch.points, tolerance);
+            const Quadric quadric = place.seen(tree.quadrics[q].quadric);
+            const std::vector<Vec3> points = place.seen(patch.points);
+            const QuadricShape shape = shape_of(quadric, points, tolerance);
             list_.push_back({.object = object_,
                              .copies = place.copies,
                              .shape = place.in_world(shape),
-                             .surface = !patch.points.empty(),
-                             .area = patch.area * half * half,
-                             .hollow = is_hollow(shape, quadric, patch)});
+                             .surface = !points.empty(),
+                             .area = place.sheared ? 0 : patch.area * half * half,
+                             .hollow = is_hollow(shape, quadric, points, 2 * patch.area_above > patch.area)});
         }
     }
 
@@ -136,11 +160,11 @@ class FunctionLister {
         auto perturbations = static_cast<std::int64_t>(function.perturbations.size());
         for (const Level& level : function.levels)
             perturbations += std::ranges::count_if(level.z, [](std::int32_t z) { return z != 0; });
-        const std::vector<Vec3> points = points_in_cube(function.base);
+        const std::vector<Vec3> points = place.seen(points_in_cube(function.base));
         const double tolerance = model_.promise.tolerance / place.half();
         return {.object = object_,
                 .copies = place.copies,
-                .shape = place.in_world(shape_of(function.base, points, tolerance)),
+                .shape = place.in_world(shape_of(place.seen(function.base), points, tolerance)),
                 .perturbations = perturbations};
     }
 

@@ -19,8 +19,9 @@ struct ListedFunction {
     std::int64_t perturbations = 0;  ///< with a form factor
     /// Is it a surface of the object? Else it only tells parts of space from each other, or trims a sheet.
     bool surface = true;
-    double area =
-        0;  ///< of a set tree's quadric: estimate of its part of one copy's surface; else 0: not known
+    /// Of a set tree's quadric: estimate of its part of one copy's surface; else, and where an operand is
+    /// sheared, 0: not known.
+    double area = 0;
     /// Of spheres, circular cylinders and cones of set trees: the solid lies outside of it, as of a hole.
     bool hollow = false;
 };

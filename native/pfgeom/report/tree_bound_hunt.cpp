@@ -2,6 +2,8 @@
 // relaxation method for linear inequalities", 1954, with quadrics for planes), aiming a margin beyond each.
 #include "pfgeom/report/tree_bound_hunt.h"
 
+#include "pfgeom/function/moved_box.h"
+
 namespace pfgeom {
 namespace {
 
@@ -74,11 +76,7 @@ void hunt_label(const TreePruner& pruner, const PrunedTree& tree, const Box& box
                 std::vector<Vec3>& points) {
     Hunt hunt(pruner, tree, box, wrong, points);
     bool any = hunt.add_if_wrong(box.centre());
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 p{corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                     corner & 4 ? box.hi.z : box.lo.z};
-        any = hunt.add_if_wrong(p) || any;
-    }
+    for (unsigned corner = 0; corner < 8; ++corner) any = hunt.add_if_wrong(corner_of(box, corner)) || any;
     if (!any) hunt.walk_to_leaves(0);
 }
 

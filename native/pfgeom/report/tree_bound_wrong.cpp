@@ -1,4 +1,5 @@
 // The part of the cell search that looks for counter-examples where a cell could not be closed.
+#include "pfgeom/function/moved_box.h"
 #include "pfgeom/report/tree_bound_cells.h"
 #include "pfgeom/report/tree_bound_hunt.h"
 
@@ -53,11 +54,8 @@ bool CellSearch::probed_wrong(const TreeBoundCell& cell) {
     };
     if (wrong(q + n * (kJustOutside * tolerance)) || wrong(q - n * (kJustOutside * tolerance))) return true;
     const Box& box = cell.box;
-    for (int corner = 0; corner < 8; ++corner) {
-        if (wrong({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                   corner & 4 ? box.hi.z : box.lo.z}))
-            return true;
-    }
+    for (unsigned corner = 0; corner < 8; ++corner)
+        if (wrong(corner_of(box, corner))) return true;
     return false;
 }
 

@@ -70,6 +70,30 @@ TEST(FunctionList, AHoleInTheMeshsUnits) {
     EXPECT_EQ(list[1].area, 0);
 }
 
+TEST(FunctionList, WhatAnOperandsTransformMakesOfIt) {
+    Model model = with_tolerance(1e-3);
+    model.objects = {plate_with_hole()};
+    Affine map;
+    map.rows[0] = {2, 0, 0};
+    map.translation = {0, 5, 0};
+    model.combination.operands = {{1, model.diagonal, model.promise}};
+    model.combination.transforms = {map};
+    model.combination.steps = {{CombinationStep::Kind::operand, 0}, {CombinationStep::Kind::transform, 0}};
+    const QuadricShape stretched = list_functions(model)[0].shape;
+    EXPECT_EQ(stretched.kind, Kind::elliptic_cylinder);
+    EXPECT_NEAR(stretched.sizes[0], 2, 1e-9);
+    EXPECT_NEAR(stretched.sizes[1], 1, 1e-9);
+    EXPECT_NEAR(norm(cross(stretched.axes[1], Vec3{1, 0, 0})), 0, 1e-9);
+    EXPECT_NEAR(stretched.centre.x, 2, 1e-9);
+    EXPECT_NEAR(stretched.centre.y, 5, 1e-9);
+
+    model.combination.transforms[0].rows = {Vec3{0, -2, 0}, Vec3{2, 0, 0}, Vec3{0, 0, 2}};
+    const ListedFunction turned = list_functions(model)[0];
+    EXPECT_EQ(turned.shape.kind, Kind::circular_cylinder);
+    EXPECT_NEAR(turned.shape.sizes[0], 2, 1e-9);
+    EXPECT_NEAR(turned.area, 2 * std::numbers::pi * 6 * 4, 1.6);
+}
+
 TEST(FunctionList, APinIsNotHollow) {
     Model model = with_tolerance(1e-3);
     Object pin = plate_with_hole();
