@@ -60,7 +60,7 @@ TriangleMesh without_bits(TriangleMesh mesh, double thickness) {
     const std::vector<Extent> extent = extents(mesh, piece_of, pieces.size());
     std::erase_if(mesh.faces, [&](const Triangle& t) {
         const auto& [volume, area] = extent[piece_of[t[0]]];
-        return piece_of[t[0]] > 0 && std::abs(volume) < 3 * thickness * area;
+        return piece_of[t[0]] > 0 && std::abs(volume) <= 3 * thickness * area;
     });
     compact_vertices(mesh);
     return mesh;
