@@ -8,7 +8,7 @@ area is exactly 0 with the coordinates as they are, and in single precision, as 
 all pieces together, of the input (beside it where it is closed) and of the mesh. "largest": the certified distance of
 the two over the tolerance. "angle": the smallest of each triangle in degrees, of which a hundredth of the triangles
 is below the first number and half of them below the second. "folds": edges where two faces turn by more than 154
-degrees. "creases", with --creases: see creases.py.
+degrees.
 """
 
 import argparse
@@ -77,7 +77,8 @@ def pieces_of(faces: Ints, vertices: int) -> Ints:
 
 def areas(vertices: Floats, faces: Ints) -> Floats:
     a, b, c = (vertices[faces[:, i]] for i in range(3))
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    area: Floats = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return area
 
 
 def smallest_angles(vertices: Floats, faces: Ints) -> Floats:

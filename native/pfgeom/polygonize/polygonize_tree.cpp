@@ -22,8 +22,9 @@ namespace {
 // quadrics. On fandisk's tree at 2.5e-4 of the diagonal, 2, 4, 8 take 1.8, 1.2, 0.9 s, all for about the same
 // triangles and errors.
 constexpr double kCellChord = 4;
-// Vertices this near to a question's zero set count as on it, in tolerances.
-constexpr double kSnap = 0.1;
+// Vertices this near to a question's zero set count as on it, in tolerances. Plates thinner than twice that
+// can vanish: with 0.1 one of a tenth of the tolerance does. With 0.02 a part's folded edges double.
+constexpr double kSnap = 0.045;
 // Of edges, in tolerances, as in polygonize.cpp.
 constexpr double kEdgeChord = 0.75;
 // Of vertices, in tolerances.
