@@ -147,3 +147,37 @@ def test_car_union_says_what_it_takes(car, monkeypatch):
     monkeypatch.setitem(sys.modules, "manifold3d", None)
     with pytest.raises(ValueError, match=r"pip install -r examples/requirements\.txt"):
         car.unite([])
+
+
+def test_mesh_quality(root, monkeypatch):
+    monkeypatch.syspath_prepend(root / "examples")
+    quality = importlib.import_module("mesh_quality").quality
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.int32)
+    one = quality(corners, faces)
+    assert (one.manifold, one.no_area, one.pieces, one.genus, one.folds) == (True, 0, 1, 0, 0)
+    assert np.isclose(one.angle_p50, 45)
+    assert not quality(corners, faces[:3]).manifold
+    assert not quality(corners, np.concatenate([faces, faces])).manifold
+    two = quality(
+        np.concatenate([corners, -corners[1:]]), np.concatenate([faces, [[0, 4, 5], [0, 6, 4], [0, 5, 6], [4, 6, 5]]])
+    )
+    assert not two.manifold, "two fans at a vertex"
+    torus = quality(*shapes.torus(12, 8))
+    assert (torus.manifold, torus.pieces, torus.genus) == (True, 1, 1)
+    flat = quality(
+        np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]], float), np.array([[0, 1, 2], [0, 1, 3]], np.int32)
+    )
+    assert flat.no_area == flat.no_area_single == 1
+
+
+def test_mesh_quality_and_creases_of_a_part(run, tmp_path):
+    pfgeom.write_mesh(tmp_path / "box.obj", shapes.cube())
+    rows = run("mesh_quality.py", tmp_path / "box.obj", "--tolerance", "1e-2").splitlines()
+    assert rows[1].split()[4:8] == ["yes", "0,", "0", "1"]
+    there, far, back, far_back, angle, _ = map(
+        float, run("creases.py", tmp_path / "box.obj").splitlines()[1].split()[1:]
+    )
+    assert there == back == 100
+    assert max(far, far_back) <= 1
+    assert angle < 0.5

@@ -81,7 +81,8 @@ void turn_faces(TriangleMesh& mesh) {
 // A complement fills the cube; its surface is that of its operand, with the faces turned.
 TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const Object& object,
                            const Task& task) {
-    if (std::holds_alternative<MeshPart>(object.shape)) return mesh_of(object, fineness_of(all, object));
+    if (std::holds_alternative<MeshPart>(object.shape))
+        return mesh_of(object, fineness_of(all, object), task);
     const PolygonizeOptions how = polygonize_options(all, object);
     TriangleMesh mesh;
     bool complement = false;

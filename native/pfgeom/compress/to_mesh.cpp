@@ -31,7 +31,12 @@ void append_copy(const TriangleMesh& mesh, const Similarity& place, TriangleMesh
     if (mesh.faces.size() > Limits{}.polygon_faces - all.faces.size())
         throw LimitExceeded("the copies of the objects have more than 20 million faces");
     task.check();
-    append(copy_of(mesh, place), all);
+    TriangleMesh copy = copy_of(mesh, place);
+    task.check();
+    if (all.vertices.empty())
+        all = std::move(copy);
+    else
+        append(copy, all);
 }
 
 // Every copy with the paint that is its own or that all share.

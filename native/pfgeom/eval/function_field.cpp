@@ -1,6 +1,6 @@
 #include "pfgeom/eval/function_field.h"
 
-#include "pfgeom/eval/cell_quadric.h"
+#include "pfgeom/eval/pruned_function.h"
 
 namespace pfgeom {
 namespace {
@@ -56,22 +56,18 @@ double FunctionField::value_and_gradient(const Vec3& p, Vec3& gradient) const {
     return j.value;
 }
 
+Interval FunctionField::range(const Box& box) const {
+    return tangent(box).over({}, box.extent() * 0.5);
+}
+
 // The coarse part of F (base and levels whose balls are larger than the box) by Taylor's theorem around the
 // centre, the fine part by the bounds of its sums. The Hessian of (1-|x|²/r²)³ has a norm of at most 6 / r².
-Interval FunctionField::range(const Box& box) const {
+Tangent FunctionField::tangent(const Box& box) const {
     const Vec3 c = box.centre(), half = box.extent() * 0.5;
     const double width = 2 * std::max({half.x, half.y, half.z});
     Jet coarse{base_.value(c), base_.gradient(c)};
-    double bend = 2 * (std::abs(base_.c[0]) + std::abs(base_.c[1]) + std::abs(base_.c[2]) +
-                       std::abs(base_.c[3]) + std::abs(base_.c[4]) + std::abs(base_.c[5]));
-    Interval fine;
-    for (const Perturbation& r : perturbations_) {
-        const Interval q = cell_range(in_frame_of(r.quadric, box));
-        const double lo = std::max(q.lo, 0.0), hi = std::max(q.hi, 0.0);
-        const double a = r.factor * (lo * lo * lo), b = r.factor * (hi * hi * hi);
-        fine.lo += std::min(a, b);
-        fine.hi += std::max(a, b);
-    }
+    double bend = largest_bend(base_);
+    Interval fine = sum_over(perturbations_, box);
     for (const LevelField& level : levels_) {
         const Interval sum = level.bounds().over(box);
         if (level.radius() > width) {
@@ -82,11 +78,11 @@ Interval FunctionField::range(const Box& box) const {
             fine.hi += sum.hi;
         }
     }
-    const Vec3& g = coarse.gradient;
-    const double reach = (std::abs(g.x) * half.x + std::abs(g.y) * half.y + std::abs(g.z) * half.z) +
-                         0.5 * bend * squared_norm(half);
-    const double slack = 1e-12 * (std::abs(coarse.value) + reach + fine.hi - fine.lo);
-    return {coarse.value - reach + fine.lo - slack, coarse.value + reach + fine.hi + slack};
+    return tangent_of(coarse, bend, fine, half);
+}
+
+std::unique_ptr<const ScalarField> FunctionField::pruned(const Box& box) const {
+    return std::make_unique<PrunedFunction>(*this, box);
 }
 
 double FunctionField::curvature(const Vec3& p) const {

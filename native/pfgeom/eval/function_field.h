@@ -62,6 +62,8 @@ class FunctionField final : public ScalarField {
     double value(const Vec3& p) const override;
     double value_and_gradient(const Vec3& p, Vec3& gradient) const override;
     Interval range(const Box& box) const override;
+    Tangent tangent(const Box& box) const override;
+    std::unique_ptr<const ScalarField> pruned(const Box& box) const override;
 
     Jet jet(const Vec3& p) const;
     /// Trace of the curvature of the level set through p (twice the mean curvature), > 0 where it is concave
@@ -71,6 +73,7 @@ class FunctionField final : public ScalarField {
     std::size_t level_count() const { return levels_.size(); }
     const LevelField& level(std::size_t i) const { return levels_[i]; }
     const Quadric& base() const { return base_; }
+    const std::vector<Perturbation>& perturbations() const { return perturbations_; }
 
   private:
     Quadric base_;

@@ -8,9 +8,9 @@ constexpr double kChordShare = 0.25;
 
 }  // namespace
 
-TriangleMesh mesh_of(const Object& object, const Fineness& fineness) {
+TriangleMesh mesh_of(const Object& object, const Fineness& fineness, const Task& task) {
     const auto& part = std::get<MeshPart>(object.shape);
-    if (part.curved()) return divide_patches(object, fineness);
+    if (part.curved()) return divide_patches(object, fineness, task);
     TriangleMesh mesh;
     mesh.faces = part.faces;
     mesh.vertices.reserve(part.positions.size());

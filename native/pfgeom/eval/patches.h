@@ -1,6 +1,7 @@
 // A mesh of flat triangles near the curved ones of a mesh part.
 #pragma once
 
+#include "pfgeom/base/task.h"
 #include "pfgeom/function/model.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
@@ -16,7 +17,7 @@ struct Fineness {
 };
 
 /// Of a curved part. Neighbours divide their common edge alike, so there are no cracks. Throws LimitExceeded
-/// beyond Limits::polygon_faces.
-TriangleMesh divide_patches(const Object& object, const Fineness& fineness);
+/// beyond Limits::polygon_faces, and Cancelled.
+TriangleMesh divide_patches(const Object& object, const Fineness& fineness, const Task& task = {});
 
 }  // namespace pfgeom

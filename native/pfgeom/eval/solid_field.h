@@ -17,8 +17,19 @@ class SolidField final : public ScalarField {
     double value(const Vec3& p) const override;
     double value_and_gradient(const Vec3& p, Vec3& gradient) const override;
     Interval range(const Box& box) const override;
+    Tangent tangent(const Box& box) const override {
+        return single() ? single()->tangent(box) : ScalarField::tangent(box);
+    }
+    std::unique_ptr<const ScalarField> pruned(const Box& box) const override {
+        return single() ? single()->pruned(box) : nullptr;
+    }
 
   private:
+    // The function, if there are no operations.
+    const FunctionField* single() const {
+        return nodes_.size() == 1 && nodes_[0].kind == SetNode::Kind::function ? &field(nodes_[0].a)
+                                                                               : nullptr;
+    }
     Jet jet(const Vec3& p, std::int32_t index) const;
     double value(const Vec3& p, std::int32_t index) const;
     Interval range(const Box& box, std::int32_t index) const;

@@ -3,6 +3,7 @@
 #include "pfgeom/polygonize/crease_adapt.h"
 
 #include "pfgeom/base/error.h"
+#include "pfgeom/polygonize/crease_mend.h"
 #include "pfgeom/polygonize/crease_tests.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ constexpr double kReach = 8;  // how far a vertex may be moved, in tolerances
 constexpr double kFarReach = 64;
 constexpr double kShort = 0.1;  // edges that may be dropped across creases, in tolerances
 constexpr int kRounds = 40;     // of splits
-constexpr int kTurns = 8;       // rounds of turning back
 constexpr int kFlips = 8;       // at most as many times the edges: rounding could make it endless
 
 class Adapter {
@@ -38,7 +38,7 @@ class Adapter {
         merge_edges(options_.edge_tolerance);
         flip_edges();
         split_edges();
-        turn_back();
+        mend_creases(surface_, options_, m_, task_);
     }
 
   private:
@@ -51,8 +51,6 @@ class Adapter {
     void merge_once(double limit);
     void flip_edges();
     void split_edges();
-    void turn_back();
-    bool mend(std::int32_t face);
     double excess(std::int32_t h) const;
     bool split(std::int32_t h);
     bool split_at(std::int32_t h, const Vec3& middle);
@@ -161,32 +159,6 @@ void Adapter::flip_edges() {
              {SurfaceMesh::next(h), SurfaceMesh::previous(h), SurfaceMesh::next(g), SurfaceMesh::previous(g)})
             stack.push_back(outer);
     }
-}
-
-// Slivers that were turned over when their vertices moved onto the quadrics.
-void Adapter::turn_back() {
-    for (int round = 0; round < kTurns; ++round) {
-        bool any = false;
-        for (std::int32_t f = 0; 3 * f < m_.mesh.half_edges(); ++f) {
-            if (f % 1024 == 0) task_.check();
-            if (m_.mesh.alive(f) && tests_.turned_over(f)) any |= mend(f);
-        }
-        m_.compact();
-        if (!any) return;
-    }
-}
-
-bool Adapter::mend(std::int32_t face) {
-    for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
-        if (!tests_.flip_mends(h, options_.edge_tolerance)) continue;
-        m_.mesh.flip(h);
-        return true;
-    }
-    for (std::int32_t k = 0; k < 3; ++k) {
-        for (const std::int32_t h : {3 * face + k, m_.mesh.twin(3 * face + k)})
-            if (tests_.merge_mends(h, options_.edge_tolerance) && m_.mesh.collapse(h)) return true;
-    }
-    return false;
 }
 
 // How far an edge is above the tolerance; 0 for those that may stay.

@@ -13,6 +13,8 @@ constexpr double kThinnest =
 constexpr int kMostNeighbours = 16;  // of a vertex after a merge
 // Sine of the least angle between two quadrics at which their curve's direction means anything.
 constexpr double kLeastSine = 0.1;
+// Edges that may be merged across creases if that mends a triangle, in tolerances.
+constexpr double kShortOf = 0.5;
 // Cosine of the normals at an edge so sharp, or a valley so narrow, that the middle of a chord may be far
 // from it and near both quadrics.
 constexpr double kSharp = -0.5;
@@ -111,7 +113,9 @@ bool CreaseTests::may_merge(std::int32_t h, double limit) const {
 }
 
 bool CreaseTests::merge_mends(std::int32_t h, double tolerance) const {
-    if (!keeps_creases(h) || !keeps_heights(h, tolerance)) return false;
+    const double short_of = kShortOf * tolerance;
+    const bool along = keeps_creases(h) && keeps_heights(h, tolerance);
+    if (!along && (squared_length(h) > short_of * short_of || !is_step_along(h))) return false;
     const std::int32_t b = m_.mesh.to(h);
     int now = 0, then = 0;
     std::int32_t spoke = h;
@@ -124,8 +128,19 @@ bool CreaseTests::merge_mends(std::int32_t h, double tolerance) const {
     return then < now;
 }
 
+// What is turned over already may stay so: a torn corner's triangles have no sides.
 bool CreaseTests::may_drop(std::int32_t h) const {
-    return keeps_faces(h, 0, kFacing);
+    const std::int32_t a = m_.mesh.from(h), b = m_.mesh.to(h);
+    std::int32_t spoke = h;
+    do {
+        const std::int32_t x = m_.mesh.to(spoke), y = m_.mesh.apex(spoke);
+        const auto fine = [&](std::int32_t v) {
+            return faces_outside(m_.label_at(spoke), at(v), at(x), at(y), 0, kFacing);
+        };
+        if (x != b && y != b && fine(a) && !fine(b)) return false;
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return true;
 }
 
 bool CreaseTests::should_flip(std::int32_t h, double tolerance) const {
@@ -144,12 +159,43 @@ bool CreaseTests::should_flip(std::int32_t h, double tolerance) const {
     if (!faces_outside(label, at(c), at(d), at(b), thinnest, kFacing) ||
         !faces_outside(label, at(d), at(c), at(a), thinnest, kFacing))
         return false;
-    return may_flip(h);
+    return may_turn(h);
 }
 
-bool CreaseTests::may_flip(std::int32_t h) const {
+int CreaseTests::others_turned_over(std::int32_t h, const Vec3& p) const {
+    int count = 0;
+    for (std::int32_t spoke = m_.mesh.twin(SurfaceMesh::previous(h)); spoke != h;
+         spoke = m_.mesh.twin(SurfaceMesh::previous(spoke)))
+        count += turned_over(m_.label_at(spoke), p, at(m_.mesh.to(spoke)), at(m_.mesh.apex(spoke)));
+    return count;
+}
+
+bool CreaseTests::opposed(std::int32_t h, const Vec3& normal) const {
+    std::int32_t spoke = h;
+    do {
+        if (dot(surface_.normal(m_.label_at(spoke), at(m_.mesh.from(h))), normal) < -kFacing) return true;
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return false;
+}
+
+bool CreaseTests::is_step(std::int32_t h) const {
+    const std::int32_t apex = SurfaceMesh::previous(h);
+    return !opposed(apex, surface_.normal(m_.label_at(m_.mesh.twin(h)), at(m_.mesh.from(apex))));
+}
+
+bool CreaseTests::is_step_along(std::int32_t h) const {
+    std::int32_t spoke = h;
+    do {
+        if (opposed(m_.mesh.twin(h), surface_.normal(m_.label_at(spoke), at(m_.mesh.to(h))))) return false;
+        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
+    } while (spoke != h);
+    return true;
+}
+
+bool CreaseTests::may_turn(std::int32_t h) const {
     const std::int32_t g = m_.mesh.twin(h), c = m_.mesh.apex(h), d = m_.mesh.apex(g);
-    return !m_.crease(h) && c != d && m_.mesh.valence(h) > 3 && m_.mesh.valence(g) > 3 &&
+    return c != d && m_.mesh.valence(h) > 3 && m_.mesh.valence(g) > 3 &&
            !m_.mesh.joined(SurfaceMesh::previous(h), d);
 }
 
@@ -160,7 +206,7 @@ bool CreaseTests::flip_mends(std::int32_t h, double tolerance) const {
     if (m_.crease(h) || height(label, c, d) > tolerance) return false;
     const int now = turned_over(h / 3) + turned_over(g / 3);
     const int then = turned_over(label, at(c), at(d), at(b)) + turned_over(label, at(d), at(c), at(a));
-    return then < now && may_flip(h);
+    return then < now && may_turn(h);
 }
 
 }  // namespace pfgeom

@@ -41,10 +41,22 @@ class CubeField {
     double value_and_gradient(const LatticePoint& p, Vec3& gradient) const {
         return lattice_value(p, value_and_gradient(position(p), gradient));
     }
-    /// Can the cell hold a zero? A cell that touches the cube's faces cannot be inside altogether.
+    Box box(const LatticePoint& low, std::int32_t size) const {
+        return {position(low), position(cube_corner(low, size, 7))};
+    }
+    Tangent tangent(const LatticePoint& low, std::int32_t size) const {
+        return field_.tangent(box(low, size));
+    }
+    std::unique_ptr<const ScalarField> pruned(const LatticePoint& low, std::int32_t size) const {
+        return field_.pruned(box(low, size));
+    }
+    /// Can the cell hold a zero?
     bool may_cross(const LatticePoint& low, std::int32_t size) const {
+        return may_cross(low, size, field_.range(box(low, size)));
+    }
+    /// The same for a known range. A cell that touches the cube's faces cannot be inside altogether.
+    bool may_cross(const LatticePoint& low, std::int32_t size, const Interval& range) const {
         const LatticePoint high = cube_corner(low, size, 7);
-        const Interval range = field_.range({position(low), position(high)});
         const bool wholly_inside = range.lo >= 0 && !on_cube(low) && !on_cube(high);
         return !(wholly_inside || range.hi < 0);
     }

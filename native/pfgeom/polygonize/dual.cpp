@@ -40,6 +40,7 @@ struct Seed {
     Vec3 point;
     std::int32_t size = 0;
     std::int32_t edge = -1;
+    std::int32_t block = -1;  // of the octree
 };
 
 class DualMesher {
@@ -59,7 +60,7 @@ class DualMesher {
             add_polygon(edges_[i]);
         }
         place_vertices();
-        mesh_.set_faces(std::move(faces_));
+        mesh_.set_faces(std::move(faces_), {});
         return std::move(mesh_);
     }
 
@@ -135,6 +136,7 @@ void DualMesher::add_sheets(const OctreeNode& leaf, const LeafSheets& sheets) {
         seed.point += c.point;
         seed.size = octree_.size_at(leaf.depth);
         seed.edge = row;
+        seed.block = leaf.block;
         ++uses[c.sheet];
     }
     for (std::int32_t s = 0; s < sheets.count; ++s) seeds_[first + s].point *= 1.0 / uses[s];
@@ -224,7 +226,7 @@ void DualMesher::place_vertices() {
             const Seed& seed = seeds_[i];
             SurfacePoint p;
             const double reach = kReach * seed.size * octree_.field().step();
-            if (!project(octree_.field(), seed.point, reach, accuracy_, p)) p = fallback(seed);
+            if (!project(octree_.field(seed.block), seed.point, reach, accuracy_, p)) p = fallback(seed);
             mesh_.position[i] = p.position;
             mesh_.normal[i] = p.normal;
         }

@@ -20,6 +20,7 @@ class SheetFinder {
     void run() {
         out_.crossings.clear();
         out_.pieces.clear();
+        for (int k = 0; k < 8; ++k) corner_[k] = octree_.value(cube_corner(leaf_.corner, size_, k));
         for (int axis = 0; axis < 3; ++axis) {
             face({leaf_.corner, axis, leaf_.depth}, -1);
             face({moved(leaf_.corner, axis, size_), axis, leaf_.depth}, 1);
@@ -78,14 +79,25 @@ class SheetFinder {
             }
             return;
         }
-        const double low = octree_.value(side.low);
-        const double high = octree_.value(moved(side.low, side.axis, size));
+        const double low = value(side.low);
+        const double high = value(moved(side.low, side.axis, size));
         const bool rising = high >= 0;
         if (rising == (low >= 0)) return;
         const bool along_u = inward == next_axis(side.axis);
         const int direction = along_u ? (inward_up ? 1 : 3) : (inward_up ? 2 : 0);
         met_.push_back(
             {crossing(side, size, low, high), static_cast<std::uint8_t>(direction), rising == forward});
+    }
+
+    // Of the field at a vertex of the leaf: its corners' are known.
+    double value(const LatticePoint& p) const {
+        std::size_t corner = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::int32_t off = p[axis] - leaf_.corner[axis];
+            if (off != 0 && off != size_) return octree_.value(p);
+            corner |= off == 0 ? 0 : std::size_t{1} << axis;
+        }
+        return corner_[corner];
     }
 
     std::int32_t crossing(const LatticeEdge& edge, std::int32_t length, double low, double high) {
@@ -161,6 +173,7 @@ class SheetFinder {
     const OctreeNode& leaf_;
     std::int32_t size_;
     LeafSheets& out_;
+    std::array<double, 8> corner_{};
     std::vector<Met> met_;
 };
 

@@ -5,6 +5,7 @@
 #include "pfgeom/polygonize/polygonize.h"
 
 #include "pfgeom/base/error.h"
+#include "pfgeom/mesh/weld.h"
 #include "pfgeom/polygonize/adapt.h"
 #include "pfgeom/polygonize/dual.h"
 
@@ -47,11 +48,14 @@ TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& optio
                                          .accuracy = accuracy,
                                          .shortest_edge = cube.step(),
                                          .max_faces = options.max_faces};
+        mesh.find_neighbours();
         adapt(cube, adapt_options, mesh, task);
+        mesh.compact();
     }
-    mesh.compact();
+    TriangleMesh result{std::move(mesh.position), mesh.faces()};
+    compact_vertices(result);
     task.report(1, "triangles");
-    return {std::move(mesh.position), mesh.faces()};
+    return result;
 }
 
 }  // namespace pfgeom

@@ -1,35 +1,48 @@
 #include "pfgeom/polygonize/samples.h"
 
+#include <bit>
+
 namespace pfgeom {
+namespace {
 
-std::size_t Samples::slot_of(const LatticePoint& p) const {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = hash_key(point_key(p)) & mask;
-    while (slots_[slot] >= 0 && list_[static_cast<std::size_t>(slots_[slot])].point != p)
-        slot = (slot + 1) & mask;
-    return slot;
+struct Place {
+    std::uint64_t group = 0;
+    std::size_t within = 0;
+};
+
+// On the coarsest grid that has the point, whose spacing goes into the group's name as a bit that is zero in
+// all corners of such groups.
+Place place_of(const LatticePoint& p) {
+    const int level = std::countr_zero(static_cast<std::uint32_t>(p[0] | p[1] | p[2]) | 1U << kDeepest);
+    const std::int32_t size = 2 << level;
+    const LatticePoint corner{(p[0] & -size) | size / 2, p[1] & -size, p[2] & -size};
+    return {point_key(corner), static_cast<std::size_t>((p[0] >> level & 1) | (p[1] >> level & 1) << 1 |
+                                                        (p[2] >> level & 1) << 2)};
 }
 
-void Samples::grow() {
-    slots_.assign(slots_.empty() ? 1024 : slots_.size() * 2, -1);
-    for (std::size_t i = 0; i < list_.size(); ++i)
-        slots_[slot_of(list_[i].point)] = static_cast<std::int32_t>(i);
-}
+}  // namespace
 
 std::int32_t Samples::find_or_add(const LatticePoint& p) {
-    if (2 * list_.size() >= slots_.size()) grow();
-    const std::size_t slot = slot_of(p);
-    if (slots_[slot] < 0) {
-        slots_[slot] = static_cast<std::int32_t>(list_.size());
+    const Place place = place_of(p);
+    std::int32_t& group = groups_[place.group];
+    if (group < 0) {
+        group = static_cast<std::int32_t>(index_.size());
+        index_.emplace_back().fill(-1);
+    }
+    std::int32_t& row = index_[static_cast<std::size_t>(group)][place.within];
+    if (row < 0) {
+        row = static_cast<std::int32_t>(list_.size());
         list_.push_back({.point = p});
     }
-    return slots_[slot];
+    return row;
 }
 
 const Sample* Samples::find(const LatticePoint& p) const {
-    if (slots_.empty()) return nullptr;
-    const std::int32_t i = slots_[slot_of(p)];
-    return i < 0 ? nullptr : &list_[static_cast<std::size_t>(i)];
+    const Place place = place_of(p);
+    const std::int32_t group = groups_.find(place.group);
+    if (group < 0) return nullptr;
+    const std::int32_t row = index_[static_cast<std::size_t>(group)][place.within];
+    return row < 0 ? nullptr : &list_[static_cast<std::size_t>(row)];
 }
 
 }  // namespace pfgeom

@@ -1,6 +1,8 @@
-// The field at corners of cells, each evaluated once: an append-only list with an open-addressing index.
+// The field at corners of cells, each evaluated once: an append-only list with an index. Neighbours are asked
+// for one after another, so that the index keeps those of 2³ points of a grid together.
 #pragma once
 
+#include "pfgeom/eval/cell_table.h"
 #include "pfgeom/polygonize/lattice.h"
 
 #include <vector>
@@ -25,11 +27,9 @@ class Samples {
     const Sample& operator[](std::size_t i) const { return list_[i]; }
 
   private:
-    std::size_t slot_of(const LatticePoint& p) const;
-    void grow();
-
     std::vector<Sample> list_;
-    std::vector<std::int32_t> slots_;  // a power of two of them, at most half taken; -1 where free
+    CellTable groups_;                                // rows of index_
+    std::vector<std::array<std::int32_t, 8>> index_;  // rows of list_; -1 where there is none
 };
 
 }  // namespace pfgeom

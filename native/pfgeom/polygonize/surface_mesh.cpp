@@ -5,8 +5,7 @@
 
 namespace pfgeom {
 
-void SurfaceMesh::set_faces(std::vector<Triangle> faces) {
-    faces_ = std::move(faces);
+void SurfaceMesh::find_neighbours() {
     twins_.assign(3 * faces_.size(), -1);
     // Half-edges listed by their lower vertex (counting sort), then matched within each list.
     std::vector<std::int32_t> first(position.size() + 1, 0), listed(twins_.size());

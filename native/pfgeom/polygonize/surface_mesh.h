@@ -16,7 +16,11 @@ class SurfaceMesh {
     std::vector<Vec3> position, normal;  ///< of the vertices; unit normals point outside
 
     /// `faces`: a closed 2-manifold whose vertices are joined by at most one edge.
-    void set_faces(std::vector<Triangle> faces);
+    void set_faces(std::vector<Triangle> faces) {
+        faces_ = std::move(faces);
+        find_neighbours();
+    }
+    void find_neighbours();
     /// With the neighbours: vertices may be joined by several edges until these are split.
     void set_faces(std::vector<Triangle> faces, std::vector<std::int32_t> twins) {
         faces_ = std::move(faces);
