@@ -22,7 +22,7 @@ py::dict describe_shape(const Sheet&) {
 }
 py::dict describe_shape(const MeshPart& part) {
     return py::dict("kind"_a = part.curved() ? "patches" : "mesh", "vertices"_a = part.positions.size(),
-                    "faces"_a = part.faces.size());
+                    "faces"_a = part.faces.size(), "mirrored"_a = part.mirror.has_value());
 }
 // Its quadrics by family, in the order of the families.
 py::dict describe_shape(const SetTree& tree) {

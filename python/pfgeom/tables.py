@@ -73,6 +73,7 @@ def info(f: dict[str, Any]) -> list[Row]:
             ", ".join(f"{kind}: {count:,}" for kind, count in kinds.items()),
         ),
         *_combination(f),
+        *_mirrored(f),
         *_copies(f),
         *_quadrics(f),
         *_kinds(f),
@@ -156,6 +157,11 @@ def _copies(f: dict[str, Any]) -> list[Row]:
     repeated = [entry["instances"] for entry in f["objects"] if entry["instances"] > 1]
     times = ", ".join(f"{n:,}" for n in sorted(repeated, reverse=True)[:8])
     return [("repeated", f"{len(repeated):,}", f"objects, in {sum(repeated):,} copies: {times}")] if repeated else []
+
+
+def _mirrored(f: dict[str, Any]) -> list[Row]:
+    count = sum(entry.get("mirrored", False) for entry in f["objects"])
+    return [("mirrored", f"{count:,}", "mesh parts, counted and stored as one half")] if count else []
 
 
 def _quadrics(f: dict[str, Any]) -> list[Row]:

@@ -8,7 +8,8 @@
 namespace pfgeom {
 namespace {
 
-// As many faces along each edge as against it: the winding number is then an integer everywhere.
+// As many faces along each edge as against it: the winding number is then an integer everywhere. Where the
+// halves of a mirrored part are joined their images make up for them.
 bool is_closed(const MeshPart& part) {
     const EdgesOfFaces edges = EdgesOfFaces::of(part.faces);
     std::vector<std::int32_t> along(edges.ends.size());
@@ -18,8 +19,9 @@ bool is_closed(const MeshPart& part) {
             along[edge] += edges.ends[edge][0] == part.faces[f][i] ? 1 : -1;
         }
     }
-    for (const std::int32_t balance : along)
-        if (balance != 0) return false;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+        if (along[i] != 0 && !part.is_seam(edges.ends[i])) return false;
+    }
     return true;
 }
 

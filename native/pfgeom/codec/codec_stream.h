@@ -40,6 +40,7 @@ enum StreamKind : std::uint32_t {
     kLargestKind = 228,
     kTurnKind = 230,
     kUnscaledFlag = 232,
+    kMirrorAxisKind = 234,
 };
 
 struct CodecStream {
@@ -50,7 +51,7 @@ struct CodecStream {
     /// Bytes of memory for what is decoded, beside mixer and hierarchies, by byte of the stream.
     static constexpr std::size_t kMemoryPerByte = std::size_t{8} << 10;
 
-    int version = 1;  ///< of the format: 2 if an object has placements
+    int version = 1;  ///< of the format (codec/header.h)
     EntropyCoder coder;
     ContextMixer mixer;
     DeriveBudget derive;            ///< of the hierarchies

@@ -38,7 +38,10 @@ class BulgeCoder {
             const Vec3 a = at(t[0]), normal = normalized(cross(at(t[1]) - a, at(t[2]) - a));
             for (const std::int32_t v : t) normals_[static_cast<std::size_t>(v)] += normal;
         }
-        for (Vec3& n : normals_) n = normalized(n);
+        for (std::size_t v = 0; v < normals_.size(); ++v) {
+            if (part.on_mirror(static_cast<std::int32_t>(v))) normals_[v][part.mirror->axis] = 0;
+            normals_[v] = normalized(normals_[v]);
+        }
     }
 
     FormatStatus run() {
@@ -134,7 +137,8 @@ bool BulgeCoder::code(std::size_t row) {
     const std::uint32_t extra = std::min(half_octaves(std::abs(predicted)), 15U) + 16 * kind;
     if (!code_number(bulge.normal, predicted, {kNormal, scale, mean(missed), extra})) return false;
     const bool bent = kind != kSmooth;
-    if (!code_number(bulge.sideways, 0, {kSideways, bent ? 1 + scale : 0, mean(sideways), kind}))
+    if (!part_.is_seam(edges_.ends[row]) &&  // it stays on the plane
+        !code_number(bulge.sideways, 0, {kSideways, bent ? 1 + scale : 0, mean(sideways), kind}))
         return false;
 
     const double error = bulge.normal - predicted;

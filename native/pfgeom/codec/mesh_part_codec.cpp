@@ -22,6 +22,10 @@ std::pair<std::int32_t, std::int32_t> rising(std::int32_t a, std::int32_t b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
+int mirror_axis(const MeshPart& part) {
+    return part.mirror ? part.mirror->axis : kNoMirror;
+}
+
 // The bulges of `part` in the order of the edges of `faces`, whose vertices are the given rows of it.
 std::vector<Bulge> reordered_bulges(const MeshPart& part, const std::vector<Triangle>& faces,
                                     const std::vector<std::int32_t>& rows) {
@@ -42,9 +46,9 @@ std::vector<Bulge> reordered_bulges(const MeshPart& part, const std::vector<Tria
 MeshPart canonical(const MeshPart& part) {
     EntropyCoder coder;  // writes into nothing: only the order matters
     ContextMixer mixer;
-    MeshPartWalk walk(coder, mixer, &part);
+    MeshPartWalk walk(coder, mixer, mirror_axis(part), &part);
     walk.run(part.faces.size(), std::numeric_limits<std::uint32_t>::max());
-    MeshPart result{part.step_code, walk.positions(), std::move(walk.faces()), 0, {}};
+    MeshPart result{part.step_code, walk.positions(), std::move(walk.faces()), 0, {}, part.mirror};
     if (!part.curved()) return result;
     result.bulge_code = part.bulge_code;
     result.bulges = reordered_bulges(part, result.faces, walk.written_rows());
@@ -57,7 +61,7 @@ FormatStatus code_mesh_part(EntropyCoder& coder, ContextMixer& mixer, MeshPart& 
     if (part.step_code < -kMaxStepCode || part.step_code > kMaxStepCode) return FormatStatus::bad_value;
     const std::size_t faces = mixer.code_uint(coder, static_cast<std::uint32_t>(part.faces.size()), kFaces);
     const std::size_t bytes_before = coder.bytes_so_far();
-    MeshPartWalk walk(coder, mixer, coder.decoding() ? nullptr : &part);
+    MeshPartWalk walk(coder, mixer, mirror_axis(part), coder.decoding() ? nullptr : &part);
     const FormatStatus status = walk.run(faces, budget_bytes);
     if (status == FormatStatus::ok && coder.decoding()) {
         part.positions = walk.positions();

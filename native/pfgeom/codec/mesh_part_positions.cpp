@@ -14,7 +14,8 @@ enum Kind : std::uint32_t {
     kFree = 148,
     kAcross = 152,
     kSteep = 160,
-    kLevel = 164
+    kLevel = 164,
+    kOnMirror = 176
 };  // each residual takes four
 
 // The coarsest lattice, of 2^level steps, that both coordinates lie on: fitters choose coarse ones where they
@@ -77,6 +78,19 @@ int PositionCoder::code_level(int level, const std::array<int, 3>& around) {
     return kLevels;
 }
 
+// Whether a vertex is on the plane of a mirrored part, by where the parallelogram's would be: from its gate
+// as far as towards the plane, in eighths, and by how near the gate's ends are.
+bool PositionCoder::code_on_mirror(bool on, const GridPoint& a, const GridPoint& b, const GridPoint& d) {
+    const auto axis = static_cast<std::size_t>(mirror_axis_);
+    const double height = 0.5 * (1.0 * a[axis] + b[axis]), rise = height - d[axis];
+    const std::uint32_t ends = (a[axis] == 0 ? 1U : 0U) + (b[axis] == 0 ? 2U : 0U) + (d[axis] == 0 ? 4U : 0U);
+    std::uint32_t ahead = 0;  // the plane is not ahead
+    if (rise * height < 0)
+        ahead = 1 + std::min(static_cast<std::uint32_t>(8 * std::min(-height / rise, 7.0)), 31U);
+    const std::array<std::uint32_t, 3> contexts{ends, 16 + ahead, 64 + ends * 64 + ahead};
+    return mixer_.code(coder_, on ? 1 : 0, {kOnMirror, 0, 0}, contexts) != 0;
+}
+
 bool PositionCoder::code_free(const GridPoint& before, GridPoint& p) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         p[axis] = before[axis] + code_residual(coder_, mixer_, p[axis] - before[axis], {kFree, 0, 0, 0});
@@ -100,6 +114,11 @@ bool PositionCoder::code(const std::vector<GridPoint>& positions, const Gate& ga
     tangential /= 3;
     normal /= 3;
 
+    int flat_axis = kNoMirror;
+    if (mirror_axis_ != kNoMirror && code_on_mirror(on_mirror(p, mirror_axis_), a, b, d))
+        flat_axis = mirror_axis_;
+    if (flat_axis != kNoMirror) p[static_cast<std::size_t>(flat_axis)] = 0;
+
     const std::uint32_t scale = half_octaves(std::max(frame.length, frame.height));
     const int level =
         code_level(level_of(p[u], p[v]), {level_of(a[u], a[v]), level_of(b[u], b[v]), level_of(d[u], d[v])});
@@ -109,6 +128,7 @@ bool PositionCoder::code(const std::vector<GridPoint>& positions, const Gate& ga
     const std::int32_t pitch = 1 << level;
     std::int32_t across = 0;
     for (const std::size_t axis : {u, v}) {
+        if (static_cast<int>(axis) == flat_axis) continue;
         const std::int32_t predicted = (a[axis] + b[axis] - d[axis] + pitch / 2) >> level;
         const std::uint32_t extra = axis == u ? 0 : 1 + std::min(half_octaves(across) / 2, 30U);
         const std::int32_t r = code_residual(coder_, mixer_, (p[axis] >> level) - predicted,
@@ -136,8 +156,11 @@ bool PositionCoder::code(const std::vector<GridPoint>& positions, const Gate& ga
         std::clamp(height + gain * bent / slope, -1.0 * kMaxCoordinate, 1.0 * kMaxCoordinate);
     const auto base = static_cast<std::int32_t>(std::floor(predicted + 0.5));
     const std::uint32_t extra = half_octaves(std::abs(across));
-    p[w] = base + code_residual(coder_, mixer_, p[w] - base, {kSteep, scale, normal, std::min(extra, 63U)});
+    if (frame.steep != flat_axis)
+        p[w] =
+            base + code_residual(coder_, mixer_, p[w] - base, {kSteep, scale, normal, std::min(extra, 63U)});
     if (std::abs(p[w]) >= kMaxCoordinate) return false;
+    if (flat_axis == kNoMirror && on_mirror(p, mirror_axis_)) return false;
 
     const double risen = (p[w] - height) * slope;
     gain_ += 0.05 * (risen - gain * bent) * bent / (bent * bent + risen * risen + 1);

@@ -15,12 +15,20 @@
 
 namespace pfgeom {
 
+constexpr int kNoMirror = -1;
+
+/// Is it on the plane of a part that is mirrored across this axis?
+inline bool on_mirror(const GridPoint& p, int mirror_axis) {
+    return mirror_axis != kNoMirror && p[static_cast<std::size_t>(mirror_axis)] == 0;
+}
+
 class PositionCoder {
   public:
     /// Coordinates are below this, so that a prediction fits into 32 bits.
     static constexpr std::int32_t kMaxCoordinate = 1 << 27;
 
-    PositionCoder(EntropyCoder& coder, ContextMixer& mixer) : coder_(coder), mixer_(mixer) {}
+    PositionCoder(EntropyCoder& coder, ContextMixer& mixer, int mirror_axis)
+        : coder_(coder), mixer_(mixer), mirror_axis_(mirror_axis) {}
 
     /// Codes the next vertex, the third one of the face at `gate`; `p` is what is written or read.
     /// Returns false if what was read is out of range.
@@ -33,6 +41,7 @@ class PositionCoder {
 
   private:
     int code_level(int level, const std::array<int, 3>& around);
+    bool code_on_mirror(bool on, const GridPoint& a, const GridPoint& b, const GridPoint& d);
 
     /// Magnitudes of the residuals of each vertex: tangential and normal, in log2_sixteenths / 8.
     struct Magnitude {
@@ -41,6 +50,7 @@ class PositionCoder {
 
     EntropyCoder& coder_;
     ContextMixer& mixer_;
+    int mirror_axis_;
     std::vector<Magnitude> magnitudes_;
     double gain_ = 0.3;  // learned: how much of a bend goes on across a gate
 };

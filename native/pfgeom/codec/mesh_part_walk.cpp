@@ -69,13 +69,14 @@ struct MeshPartWalk::Surroundings {
     }
 };
 
-MeshPartWalk::MeshPartWalk(EntropyCoder& coder, ContextMixer& mixer, const MeshPart* written)
+MeshPartWalk::MeshPartWalk(EntropyCoder& coder, ContextMixer& mixer, int mirror_axis, const MeshPart* written)
     : coder_(coder),
       mixer_(mixer),
+      mirror_axis_(mirror_axis),
       written_(written),
       left_(written ? written->faces : kNoFaces, written ? written->positions.size() : 0),
       known_(written ? written->positions.size() : 0, -1),
-      vertex_coder_(coder, mixer) {}
+      vertex_coder_(coder, mixer, mirror_axis) {}
 
 FormatStatus MeshPartWalk::run(std::size_t count, std::size_t budget_bytes) {
     if (count > kFacesFree + budget_bytes * kFacesPerByte) return FormatStatus::limit_exceeded;
@@ -149,6 +150,12 @@ bool MeshPartWalk::code_border(const Surroundings& around, bool border) {
     return mixer_.code(coder_, border ? 1 : 0, {kBorder, 0, around.borders}, contexts) != 0;
 }
 
+// On the plane of a mirrored part the image begins: no face follows, and nothing is coded.
+bool MeshPartWalk::is_seam(const Gate& gate) const {
+    return on_mirror(front_.positions()[static_cast<std::size_t>(gate.from)], mirror_axis_) &&
+           on_mirror(front_.positions()[static_cast<std::size_t>(gate.to)], mirror_axis_);
+}
+
 // Codes which vertex the face has; corner.known becomes -1 for a new one.
 bool MeshPartWalk::code_third(const Surroundings& around, Corner& corner) {
     const auto is = [&](Kind kind, bool yes, std::uint32_t set, std::span<const std::uint32_t> contexts) {
@@ -192,7 +199,7 @@ bool MeshPartWalk::step(const Gate& gate) {
         found = left_.at_edge(row(gate.from), row(gate.to), gate.flipped);
     }
     const Surroundings around(front_, gate, borders_);
-    if (code_border(around, found.face < 0)) {
+    if (is_seam(gate) || code_border(around, found.face < 0)) {
         borders_[static_cast<std::size_t>(gate.from)] |= kLeaves;
         borders_[static_cast<std::size_t>(gate.to)] |= kArrives;
         return true;

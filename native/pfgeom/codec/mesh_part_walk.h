@@ -20,8 +20,9 @@ namespace pfgeom {
 
 class MeshPartWalk {
   public:
-    /// `written`: what an encoder writes, in any order; null in a decoder.
-    MeshPartWalk(EntropyCoder& coder, ContextMixer& mixer, const MeshPart* written);
+    /// `mirror_axis`: of a mirrored part, or kNoMirror. `written`: what an encoder writes, in any order; null
+    /// in a decoder.
+    MeshPartWalk(EntropyCoder& coder, ContextMixer& mixer, int mirror_axis, const MeshPart* written);
 
     /// Codes `count` faces; more than budget_bytes can hold are refused before anything is allocated.
     FormatStatus run(std::size_t count, std::size_t budget_bytes);
@@ -47,10 +48,12 @@ class MeshPartWalk {
     bool add_vertex(const Gate* gate, Corner& corner);
 
     bool code_border(const Surroundings& around, bool border);
+    bool is_seam(const Gate& gate) const;
     Corner corner_of(std::int32_t written) const;
 
     EntropyCoder& coder_;
     ContextMixer& mixer_;
+    int mirror_axis_;
     const MeshPart* written_;
     FacesLeft left_;
     std::vector<std::int32_t> known_;         // encoder: written vertex -> vertex of the walk, or -1

@@ -12,11 +12,12 @@ namespace pfgeom {
 namespace {
 
 constexpr std::uint32_t kSolid = 0, kSheet = 1, kMeshPart = 2, kSetTree = 3;  // order of Object::shape
-constexpr std::uint32_t kCurvedPart = 4;                                      // a mesh part with bulges
+// Mesh parts with bulges, with a mirror (from version 3 on), and with both.
+constexpr std::uint32_t kCurvedPart = 4, kMirroredPart = 5, kMirroredCurvedPart = 6;
 
 // Contexts of code_wide and code_numbers.
 constexpr std::uint32_t kFirstOffset = 256, kLaterOffset = 257;
-constexpr std::uint32_t kScale = 3, kRow = 4, kTranslation = 5;
+constexpr std::uint32_t kScale = 3, kRow = 4, kTranslation = 5, kMirrorPlace = 6;
 // Contexts of code_size.
 constexpr std::uint32_t kNodeCount = 3, kInstanceCount = 4;
 
@@ -26,6 +27,13 @@ std::int64_t nearest_offset(const Frame& before, int code, int axis) {
     const double offset = std::floor(before.centre()[axis] / unit + 0.5);
     constexpr auto kMost = static_cast<double>(Frame::kMaxOffset);
     return static_cast<std::int64_t>(std::clamp(offset, -kMost, kMost));
+}
+
+std::uint32_t code_of(const Object& object) {
+    const auto* part = std::get_if<MeshPart>(&object.shape);
+    if (part == nullptr) return static_cast<std::uint32_t>(object.shape.index());
+    if (part->mirror) return part->curved() ? kMirroredCurvedPart : kMirroredPart;
+    return part->curved() ? kCurvedPart : kMeshPart;
 }
 
 }  // namespace
@@ -79,14 +87,13 @@ void ObjectCoder::code_frame(Frame& frame) {
 }
 
 void ObjectCoder::code_shape(Object& object) {
-    const auto* given = std::get_if<MeshPart>(&object.shape);
-    const std::uint32_t in =
-        given && given->curved() ? kCurvedPart : static_cast<std::uint32_t>(object.shape.index());
-    const std::uint32_t shape = stream_.mixer.code_uint(stream_.coder, in, kShapeKind);
+    const std::uint32_t shape = stream_.mixer.code_uint(stream_.coder, code_of(object), kShapeKind);
+    const bool mirrored = shape == kMirroredPart || shape == kMirroredCurvedPart;
+    if (mirrored) stream_.expect(stream_.version >= 3);
     if (stream_.decoding()) {
         if (shape == kSheet)
             object.shape = Sheet{};
-        else if (shape == kMeshPart || shape == kCurvedPart)
+        else if (shape == kMeshPart || shape == kCurvedPart || mirrored)
             object.shape = MeshPart{};
         else if (shape == kSetTree)
             object.shape = SetTree{};
@@ -95,7 +102,10 @@ void ObjectCoder::code_shape(Object& object) {
     }
     if (!stream_.ok()) return;
     if (auto* solid = std::get_if<Solid>(&object.shape)) code_solid(*solid);
-    if (auto* part = std::get_if<MeshPart>(&object.shape)) code_mesh(*part, shape == kCurvedPart);
+    if (auto* part = std::get_if<MeshPart>(&object.shape)) {
+        if (mirrored) code_mirror(*part);
+        code_mesh(*part, shape == kCurvedPart || shape == kMirroredCurvedPart);
+    }
     if (auto* tree = std::get_if<SetTree>(&object.shape)) code_set_tree(stream_, tree_model_, *tree);
     if (auto* sheet = std::get_if<Sheet>(&object.shape)) {
         code_function_index(sheet->surface);
@@ -139,6 +149,16 @@ void ObjectCoder::code_function_index(std::int32_t& function) {
     if (index < 0 || index >= function_count_) return stream_.fail(FormatStatus::bad_value);
     function = static_cast<std::int32_t>(index);
     next_function_ = std::max(next_function_, function + 1);
+}
+
+void ObjectCoder::code_mirror(MeshPart& part) {
+    MirrorPlane plane = part.mirror.value_or(MirrorPlane{});
+    const auto in = static_cast<std::uint32_t>(plane.axis);
+    const std::uint32_t axis = stream_.mixer.code_uint(stream_.coder, in, kMirrorAxisKind);
+    if (axis > 2) return stream_.fail(FormatStatus::bad_value);
+    plane.axis = static_cast<std::int32_t>(axis);
+    code_numbers(stream_, {&plane.at, 1}, kMirrorPlace);
+    if (stream_.ok()) part.mirror = plane;
 }
 
 void ObjectCoder::code_mesh(MeshPart& part, bool curved) {

@@ -24,6 +24,7 @@ class ObjectCoder {
     void code_node(SetNode& node, std::int32_t index);
     void code_child(std::int32_t& child, std::int32_t parent);
     void code_function_index(std::int32_t& function);
+    void code_mirror(MeshPart& part);
     void code_mesh(MeshPart& part, bool curved);
     void code_nesting(std::int32_t& cavity_of);
     void code_vector(Vec3& v, std::uint32_t context);

@@ -8,6 +8,7 @@
 #include "pfgeom/mesh/bvh.h"
 #include "pfgeom/mesh/prepare.h"
 #include "pfgeom/report/deviation.h"
+#include "pfgeom/segment/mirror.h"
 
 #include <functional>
 #include <optional>
@@ -25,6 +26,7 @@ struct Goal {
     double diagonal = 0;  ///< of the whole input
     bool inward = false;  ///< closed, and its normals point inwards
     Effort effort = Effort::normal;
+    bool is_pattern = false;  ///< others place it: it gets no placements of its own
 };
 
 /// A representation that was written, read back, polygonized and measured.
@@ -55,6 +57,10 @@ std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, c
 struct MeshEstimate {
     std::size_t least = 0;   ///< hardly ever fewer bytes than this where the shape is made of quadrics
     std::size_t likely = 0;  ///< hardly ever more than this
+    std::optional<Mirror> mirror;
+
+    /// A half takes about half as much.
+    std::size_t least_mirrored() const { return mirror ? least / 2 : least; }
 };
 MeshEstimate estimate_mesh(const Goal& goal, const Task& task);
 

@@ -68,7 +68,7 @@ class CopiesFit {
 
     Goal goal_for(const TriangleMesh& mesh, const Bvh& bvh, double tolerance) const {
         const bool inward = first().closed && first().signed_volume < 0;
-        return {mesh, bvh, tolerance, goal_.metric, goal_.prepared.diagonal, inward, goal_.effort};
+        return {mesh, bvh, tolerance, goal_.metric, goal_.prepared.diagonal, inward, goal_.effort, true};
     }
 
     // Within what the share leaves.

@@ -26,14 +26,15 @@ void take_cheaper(std::optional<Outcome> outcome, std::optional<Outcome>& best) 
 // before the tree is mended and proved, which takes longest, and limits it (thingi-1706459 at 1e-3).
 std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
+    const std::size_t least = estimate.least_mirrored();
     const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
     std::optional<Outcome> plain;
     const auto limit = [&](std::size_t bytes) {
-        if (!plain && kSure * bytes >= estimate.least) plain = try_mesh(goal, estimate, task);
+        if (!plain && kSure * bytes >= least) plain = try_mesh(goal, estimate, task);
         return plain && plain->holds ? std::min(plain->bytes, estimate.likely) : estimate.likely;
     };
     std::optional<Outcome> best = try_tree(goal, limit, task);
-    if (best && kSure * best->bytes < estimate.least && !all) return best;
+    if (best && kSure * best->bytes < least && !all) return best;
     if (!plain) plain = try_mesh(goal, estimate, task);
     // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
     // None has beaten a tree.
@@ -49,7 +50,7 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
     const auto limit = [&](std::size_t) { return estimate.likely; };
     std::optional<Outcome> best = try_tree(goal, limit, task);
-    const bool far_below = best && best->bytes < estimate.least && goal.effort != Effort::best;
+    const bool far_below = best && best->bytes < estimate.least_mirrored() && goal.effort != Effort::best;
     if (!far_below && goal.mesh.faces.size() <= kQuickMesh)
         take_cheaper(try_mesh(goal, estimate, task), best);
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the

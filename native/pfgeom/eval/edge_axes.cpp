@@ -34,6 +34,14 @@ struct AtEdge {
     double fold = 1;
 };
 
+// The faces' images, whose normals are the images of theirs and which have the edge in the other direction.
+void add_images(AtEdge& e, int axis) {
+    if (e.faces == 1) e.fold = 1 - 2 * e.first[axis] * e.first[axis];
+    e.sum[axis] = 0;
+    e.faces *= 2;
+    e.turn = 0;
+}
+
 std::vector<AtEdge> gather(const MeshPart& part, const EdgesOfFaces& edges) {
     std::vector<AtEdge> at(edges.ends.size());
     for (std::size_t f = 0; f < part.faces.size(); ++f) {
@@ -49,6 +57,9 @@ std::vector<AtEdge> gather(const MeshPart& part, const EdgesOfFaces& edges) {
             ++e.faces;
             e.turn += edges.ends[row][0] == t[k] ? 1 : -1;
         }
+    }
+    for (std::size_t row = 0; row < at.size(); ++row) {
+        if (part.is_seam(edges.ends[row])) add_images(at[row], part.mirror->axis);
     }
     return at;
 }

@@ -1,5 +1,7 @@
 #include "pfgeom/eval/mesh_part.h"
 
+#include "pfgeom/eval/mirror_image.h"
+
 namespace pfgeom {
 namespace {
 
@@ -14,11 +16,8 @@ TriangleMesh mesh_of(const Object& object, const Fineness& fineness, const Task&
     TriangleMesh mesh;
     mesh.faces = part.faces;
     mesh.vertices.reserve(part.positions.size());
-    const double step = part.step();
-    for (const auto& q : part.positions) {
-        const Vec3 local{q[0] * step, q[1] * step, q[2] * step};
-        mesh.vertices.push_back(object.frame.to_world(local));
-    }
+    for (const auto& p : part.positions) mesh.vertices.push_back(object.frame.to_world(part.local(p)));
+    if (part.mirror) add_mirror_image(object.frame, *part.mirror, mesh);
     return mesh;
 }
 

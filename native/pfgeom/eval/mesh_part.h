@@ -7,7 +7,7 @@
 
 namespace pfgeom {
 
-/// `object.shape` must be a MeshPart. Vertex = frame.to_world(position · step); curved faces are divided.
+/// `object.shape` must be a MeshPart. Both halves of a mirrored one; curved faces are divided.
 TriangleMesh mesh_of(const Object& object, const Fineness& fineness, const Task& task = {});
 
 /// As fine as values at points and signs need it. `diagonal`: of the model that the object comes from.

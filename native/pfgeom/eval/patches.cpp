@@ -3,6 +3,7 @@
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/limits.h"
 #include "pfgeom/eval/edge_axes.h"
+#include "pfgeom/eval/mirror_image.h"
 #include "pfgeom/function/curved_triangle.h"
 #include "pfgeom/function/edges_of_faces.h"
 
@@ -19,12 +20,6 @@ constexpr int kMostParts = 64;
 // Of at most 4,096 triangles each, some 0.3 ms.
 constexpr std::size_t kPatchesBetweenChecks = 64;
 
-Vec3 corner(const Object& object, const MeshPart& part, std::int32_t vertex) {
-    const auto& q = part.positions[static_cast<std::size_t>(vertex)];
-    const double step = part.step();
-    return object.frame.to_world({q[0] * step, q[1] * step, q[2] * step});
-}
-
 // Of each edge, in the world.
 std::vector<Vec3> bulges_of(const Object& object, const MeshPart& part, const EdgesOfFaces& edges) {
     const std::vector<EdgeAxes> axes = edge_axes(part, edges);
@@ -34,6 +29,7 @@ std::vector<Vec3> bulges_of(const Object& object, const MeshPart& part, const Ed
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const Bulge& b = part.bulges[i];
         bulges.push_back((axes[i].normal * b.normal + axes[i].sideways * b.sideways) * unit);
+        if (part.is_seam(edges.ends[i])) bulges.back()[part.mirror->axis] = 0;
     }
     return bulges;
 }
@@ -46,8 +42,8 @@ class Divider {
           task_(task),
           edges_(EdgesOfFaces::of(part_.faces)),
           bulges_(bulges_of(object, part_, edges_)) {
-        for (std::size_t v = 0; v < part_.positions.size(); ++v)
-            mesh_.vertices.push_back(corner(object_, part_, static_cast<std::int32_t>(v)));
+        for (const auto& p : part_.positions)
+            mesh_.vertices.push_back(object_.frame.to_world(part_.local(p)));
         for (std::size_t e = 0; e < bulges_.size(); ++e) parts_.push_back(parts(e, fineness));
         even_out();
         check_size();
@@ -59,6 +55,7 @@ class Divider {
             if (f % kPatchesBetweenChecks == 0) task_.check();
             add_face(f);
         }
+        if (part_.mirror) add_mirror_image(object_.frame, *part_.mirror, mesh_);
         return std::move(mesh_);
     }
 
@@ -91,7 +88,7 @@ class Divider {
         std::size_t faces = 0;
         for (const Triangle& edges : edges_.of_face) {
             const auto n = static_cast<std::size_t>(most_parts(edges));
-            faces += n * n;
+            faces += n * n * (part_.mirror ? 2 : 1);
         }
         if (faces > Limits{}.polygon_faces)
             throw LimitExceeded("too many triangles for a mesh of the patches");
@@ -112,6 +109,8 @@ class Divider {
             const double t = static_cast<double>(i) / parts_[edge];
             mesh_.vertices.push_back(mesh_.vertices[a] * (1 - t) + mesh_.vertices[b] * t +
                                      bulges_[edge] * (4 * t * (1 - t)));
+            if (part_.is_seam(edges_.ends[edge]))  // exactly
+                mesh_.vertices.back()[part_.mirror->axis] = mesh_.vertices[a][part_.mirror->axis];
         }
     }
 

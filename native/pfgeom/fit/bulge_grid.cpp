@@ -103,7 +103,8 @@ class BulgeSnapper {
         const auto steps = [&](const Vec3& axis) {
             return static_cast<std::int32_t>(std::floor(dot(now, axis) / step_ + 0.5));
         };
-        const Bulge rounded{steps(axes.normal), steps(axes.sideways)};
+        const bool seam = part_.is_seam(edges_.ends[row]);  // stays on the mirror's plane
+        const Bulge rounded{steps(axes.normal), seam ? 0 : steps(axes.sideways)};
         Bulge best{rounded.normal, 0};
         double least = kInfinity;
         const auto try_bulge = [&](const Bulge& b) {
@@ -117,8 +118,10 @@ class BulgeSnapper {
         for (std::size_t i = 0; i < kStraight.size() && !stays; ++i)
             try_bulge({rounded.normal + kStraight[i], 0});
         // Creases and borders need it; and where the faces have turned since a bulge was found, it leans.
-        for (std::size_t i = 0; i < kOthers.size() && least > limit; ++i)
-            try_bulge({rounded.normal + kOthers[i][0], rounded.sideways + kOthers[i][1]});
+        for (std::size_t i = 0; i < kOthers.size() && least > limit; ++i) {
+            if (!seam || kOthers[i][1] == 0)
+                try_bulge({rounded.normal + kOthers[i][0], rounded.sideways + kOthers[i][1]});
+        }
         part_.bulges[row] = best;
         propose(row, vector_of(row, best));
         error_.commit(patch_);

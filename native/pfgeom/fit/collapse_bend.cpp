@@ -27,7 +27,8 @@ using Row = std::vector<DenseSystem::Term>;
 // Three of the moving vertex, if it is free; then the bulges of the spokes.
 class Unknowns {
   public:
-    Unknowns(const Spokes& spokes, bool free) : spokes_(spokes), free_(free), count_(free ? 3 : 0) {
+    Unknowns(const Spokes& spokes, bool free, int fixed_axis)
+        : spokes_(spokes), free_(free), fixed_axis_(fixed_axis), count_(free ? 3 : 0) {
         for (const Spoke& s : spokes.list()) {
             first_.push_back(count_);
             count_ += s.bent ? 2 : 1;
@@ -37,7 +38,9 @@ class Unknowns {
     // To the row of a point that moves with the vertex, and with a bulge, by these shares.
     void add_vertex(Row& row, double share, const Vec3& direction) const {
         if (!free_) return;
-        for (std::size_t k = 0; k < 3; ++k) row.push_back({k, share * direction[static_cast<int>(k)]});
+        for (int k = 0; k < 3; ++k) {
+            if (k != fixed_axis_) row.push_back({static_cast<std::size_t>(k), share * direction[k]});
+        }
     }
     void add_bulge(Row& row, std::size_t spoke, double share, const Vec3& direction) const {
         const Spoke& s = spokes_.list()[spoke];
@@ -53,6 +56,7 @@ class Unknowns {
   private:
     const Spokes& spokes_;
     bool free_;
+    int fixed_axis_;
     std::size_t count_;
     std::vector<std::size_t> first_;  // of each spoke
 };
@@ -105,7 +109,7 @@ void CollapseError::bend(Patch& patch) const {
 // edges that follow a line, across them.
 void CollapseError::refit(Patch& patch, bool free) const {
     const Spokes spokes = spokes_of(patch);
-    const Unknowns unknowns(spokes, free);
+    const Unknowns unknowns(spokes, free, patch.fixed_axis);
     if (unknowns.count() > kMostUnknowns) return;
     DenseSystem system(unknowns.count());
     Row row;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfgeom {
 namespace {
@@ -53,6 +54,25 @@ CollapseError::CollapseError(const TriangleMesh& original, Metric metric, double
       first_(original.faces.size(), -1) {
     sample_faces(original, spacing);
     sample_edges(original, spacing);
+}
+
+void CollapseError::start_from(const TriangleMesh& part, const Task& task) {
+    const Bvh bvh(part, task);
+    for (std::size_t f = part.faces.size(); f < first_.size(); ++f) {
+        std::int32_t hint = -1;
+        for (std::int32_t s = first_[f]; s >= 0;) {
+            task.check();
+            Sample& sample = samples_[static_cast<std::size_t>(s)];
+            const ClosestPoint found = bvh.closest(sample.p, std::numeric_limits<double>::infinity(), hint);
+            hint = found.face;
+            sample.squared = found.squared_distance;
+            sum_ += sample.weight * sample.squared;
+            std::int32_t& first = first_[static_cast<std::size_t>(found.face)];
+            const std::int32_t next = std::exchange(sample.next, first);
+            first = std::exchange(s, next);
+        }
+    }
+    first_.resize(part.faces.size());
 }
 
 void CollapseError::add(const Vec3& p, double weight, std::int32_t face) {
@@ -215,7 +235,8 @@ Vec3 CollapseError::fitted(const Patch& patch) const {
         const auto& t = patch.triangles[found.row];
         const double lambda = weight_of_corner(t, found.point), d = std::sqrt(found.squared);
         const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
-        const Vec3 direction = d > 1e-9 * spacing_ ? (sample.p - found.point) / d : normal;
+        Vec3 direction = d > 1e-9 * spacing_ ? (sample.p - found.point) / d : normal;
+        if (patch.fixed_axis != Patch::kNoAxis) direction[patch.fixed_axis] = 0;
         const double weight = metric_ == Metric::max ? found.squared : sample.weight;
         system.add(direction * lambda, weight);
         right += direction * (lambda * d * weight);

@@ -42,6 +42,9 @@ class CollapseError {
     CollapseError(const TriangleMesh& original, Metric metric, double tolerance, double spacing,
                   const Task& task);
 
+    /// The mesh that changes begins as a part of the original only, whose faces stand first in it.
+    void start_from(const TriangleMesh& part, const Task& task);
+
     /// What a patch costs: metric max: the largest distance of its samples; rms: the rise of the weighted sum
     /// of their squares. Infinite if it is over `limit` (then it is not measured out).
     double forward(const Patch& patch, double limit) const;
@@ -62,7 +65,7 @@ class CollapseError {
         bulge_step_ = bulge_step;
     }
     bool quantised() const { return grid_.has_value(); }
-    Vec3 placed(const Vec3& p) const { return grid_ ? grid_->point(grid_->nearest(p)) : p; }
+    Vec3 placed(const Vec3& p) const { return grid_ ? grid_->point(grid_->nearest_above(p)) : p; }
     /// Of curved patches: edges along the borders and creases of the original are to follow them.
     void follow_lines(const TriangleMesh& original, const Task& task) { lines_.emplace(original, task); }
     /// How closely backward() looks from now on.

@@ -36,8 +36,9 @@ constexpr double kLeastCosine = 0.2, kFlattest = 0.02;
 
 }  // namespace
 
-CollapseMesh::CollapseMesh(const TriangleMesh& mesh, bool curved)
-    : points_(mesh.vertices),
+CollapseMesh::CollapseMesh(const TriangleMesh& mesh, bool curved, std::optional<AxisPlane> mirror)
+    : mirror_(mirror),
+      points_(mesh.vertices),
       faces_(mesh.faces),
       bulges_(curved ? mesh.faces.size() : 0),
       at_(mesh.vertices.size()),
@@ -75,7 +76,20 @@ std::vector<std::int32_t> CollapseMesh::neighbours(std::int32_t v, bool all) con
     return result;
 }
 
+// A vertex that comes onto the plane must not bring an edge along that then has both ends there: it would
+// fall together with its own image, or a border would seem to be one of the edges along which the halves are
+// joined.
+bool CollapseMesh::may_meet_mirror(std::int32_t u, std::int32_t v) const {
+    if (on_mirror(u) == on_mirror(v)) return true;
+    const std::int32_t there = on_mirror(u) ? u : v, comes = on_mirror(u) ? v : u;
+    const std::vector<std::int32_t> known = neighbours(there), brought = neighbours(comes);
+    return std::all_of(brought.begin(), brought.end(), [&](std::int32_t w) {
+        return w == there || !on_mirror(w) || std::binary_search(known.begin(), known.end(), w);
+    });
+}
+
 bool CollapseMesh::may_collapse(std::int32_t u, std::int32_t v) const {
+    if (mirror_ && !may_meet_mirror(u, v)) return false;
     const std::vector<std::int32_t> of_u = neighbours(u), of_v = neighbours(v);
     std::vector<std::int32_t> common;
     std::set_intersection(of_u.begin(), of_u.end(), of_v.begin(), of_v.end(), std::back_inserter(common));
@@ -99,14 +113,23 @@ bool CollapseMesh::may_collapse(std::int32_t u, std::int32_t v) const {
     return shared != 2 || neighbours(u, false).empty() || neighbours(v, false).empty();
 }
 
-void CollapseMesh::patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) const {
-    patch.before = patch.after = faces_at(v);
+Vec3 CollapseMesh::begin(Patch& patch, Vec3 p, bool on_mirror) const {
+    patch.before.clear();
+    patch.after.clear();
     patch.triangles.clear();
     patch.bulges.clear();
     patch.ends.clear();
+    patch.fixed_axis = on_mirror ? mirror_->axis : Patch::kNoAxis;
+    if (on_mirror) p[mirror_->axis] = mirror_->at;
+    return p;
+}
+
+void CollapseMesh::patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) const {
+    const Vec3 place = begin(patch, p, on_mirror(v));
+    patch.before = patch.after = faces_at(v);
     for (const std::int32_t f : patch.after) {
         const auto t = from_corner(face(f), v);
-        patch.triangles.push_back({p, point(t[1]), point(t[2])});
+        patch.triangles.push_back({place, point(t[1]), point(t[2])});
         if (bulges_.empty()) continue;
         patch.bulges.push_back(turned(bulges_[static_cast<std::size_t>(f)], corner_of(face(f), v)));
         patch.ends.push_back({t[1], t[2]});
@@ -114,19 +137,15 @@ void CollapseMesh::patch_of_move(std::int32_t v, const Vec3& p, Patch& patch) co
 }
 
 void CollapseMesh::patch_of_face(std::int32_t f, Patch& patch) const {
+    begin(patch, {}, false);
     patch.before = patch.after = {f};
     patch.triangles = {corners(f)};
-    patch.bulges.clear();
     if (curved()) patch.bulges = {bulges_[static_cast<std::size_t>(f)]};
     patch.ends = {{face(f)[1], face(f)[2]}};
 }
 
 void CollapseMesh::patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3& p, Patch& patch) const {
-    patch.before.clear();
-    patch.after.clear();
-    patch.triangles.clear();
-    patch.bulges.clear();
-    patch.ends.clear();
+    const Vec3 place = begin(patch, p, on_mirror(u) || on_mirror(v));
     for (const std::int32_t end : {v, u}) {
         for (const std::int32_t f : faces_at(end)) {
             const bool shared = has(face(f), u) && has(face(f), v);
@@ -134,7 +153,7 @@ void CollapseMesh::patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3&
             if (shared) continue;
             const auto t = from_corner(face(f), end);
             patch.after.push_back(f);
-            patch.triangles.push_back({p, point(t[1]), point(t[2])});
+            patch.triangles.push_back({place, point(t[1]), point(t[2])});
             if (bulges_.empty()) continue;
             patch.bulges.push_back({Vec3{}, bulge(f, (corner_of(face(f), end) + 1) % 3), Vec3{}});
             patch.ends.push_back({t[1], t[2]});
@@ -143,6 +162,8 @@ void CollapseMesh::patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3&
 }
 
 bool CollapseMesh::keeps_orientation(const Patch& patch) const {
+    const bool free = mirror_ && patch.fixed_axis == Patch::kNoAxis;
+    if (free && !(patch.triangles[0][0][mirror_->axis] > mirror_->at)) return false;
     for (std::size_t i = 0; i < patch.after.size(); ++i) {
         const std::array<Vec3, 3> old = corners(patch.after[i]);
         const Vec3 before = doubled_area(old), after = doubled_area(patch.triangles[i]);
@@ -193,7 +214,9 @@ std::int32_t CollapseMesh::split(std::int32_t u, std::int32_t v) {
         const auto bulges =
             curved() ? turned(bulges_[static_cast<std::size_t>(f)], k) : std::array<Vec3, 3>{};
         const CurvedTriangle surface{{point(a), point(b), point(c)}, bulges};
-        const Vec3 m = surface.at({0.5, 0.5, 0}), half = bulges[0] / 4;
+        Vec3 m = surface.at({0.5, 0.5, 0});
+        if (on_mirror(u) && on_mirror(v)) m[mirror_->axis] = mirror_->at;
+        const Vec3 half = bulges[0] / 4;
         const Vec3 across = surface.at({0.25, 0.25, 0.5}) - (m + point(c)) * 0.5;
         points_.back() = m;
         const auto other = static_cast<std::int32_t>(faces_.size());

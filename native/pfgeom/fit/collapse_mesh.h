@@ -1,13 +1,16 @@
 // A triangle soup that edge collapses thin out: corners of faces, and the faces at each vertex. No
 // half-edges, so that edges with any number of faces and vertices with any number of fans are nothing
-// special. Its faces are flat, or curved with a bulge on each edge.
+// special. Its faces are flat, or curved with a bulge on each edge. Of the half above a mirror's plane the
+// vertices on the plane stay on it, and all others above.
 #pragma once
 
 #include "pfgeom/function/curved_triangle.h"
+#include "pfgeom/mesh/halves.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pfgeom {
@@ -19,7 +22,10 @@ struct Patch {
     std::vector<std::array<Vec3, 3>> triangles;     ///< of each of `after`; corner 0 is the moving vertex
     std::vector<std::array<Vec3, 3>> bulges;        ///< of their edges 0-1, 1-2, 2-0; empty: they are flat
     std::vector<std::array<std::int32_t, 2>> ends;  ///< curved: their corners 1 and 2
-    void move_to(const Vec3& p) {
+    int fixed_axis = kNoAxis;                       ///< the moving vertex keeps this coordinate
+    static constexpr int kNoAxis = -1;
+    void move_to(Vec3 p) {
+        if (fixed_axis != kNoAxis) p[fixed_axis] = triangles[0][0][fixed_axis];
         for (auto& t : triangles) t[0] = p;
     }
     bool curved() const { return !bulges.empty(); }
@@ -28,7 +34,8 @@ struct Patch {
 
 class CollapseMesh {
   public:
-    explicit CollapseMesh(const TriangleMesh& mesh, bool curved = false);
+    explicit CollapseMesh(const TriangleMesh& mesh, bool curved = false,
+                          std::optional<AxisPlane> mirror = {});
 
     const Vec3& point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
     const Triangle& face(std::int32_t f) const { return faces_[static_cast<std::size_t>(f)]; }
@@ -47,6 +54,8 @@ class CollapseMesh {
     /// The other ends of the edges at v, sorted; unless `all`, of those edges only that do not have two
     /// faces.
     std::vector<std::int32_t> neighbours(std::int32_t v, bool all = true) const;
+    /// Vertices on the mirror's plane stay there.
+    bool on_mirror(std::int32_t v) const { return mirror_ && point(v)[mirror_->axis] == mirror_->at; }
     /// The link condition, and no two faces that would cover each other; u and v are the ends of an edge.
     bool may_collapse(std::int32_t u, std::int32_t v) const;
 
@@ -56,7 +65,7 @@ class CollapseMesh {
     void patch_of_collapse(std::int32_t u, std::int32_t v, const Vec3& p, Patch& patch) const;
     /// Face f as it is.
     void patch_of_face(std::int32_t f, Patch& patch) const;
-    /// No triangle of the patch is turned over, or folded onto a line.
+    /// No triangle of the patch is turned over, or folded onto a line, nor reaches the mirror's plane.
     bool keeps_orientation(const Patch& patch) const;
 
     /// Makes `patch`, of a move of v or of a collapse of u into v, the surface.
@@ -81,6 +90,11 @@ class CollapseMesh {
     std::vector<std::int32_t> faces_left() const;
 
   private:
+    bool may_meet_mirror(std::int32_t u, std::int32_t v) const;
+    /// Empties the patch; returns the place p of its moving vertex, which is on the mirror's plane or not.
+    Vec3 begin(Patch& patch, Vec3 p, bool on_mirror) const;
+
+    std::optional<AxisPlane> mirror_;
     std::vector<Vec3> points_;
     std::vector<Triangle> faces_;              // a removed one: -1, -1, -1
     std::vector<std::array<Vec3, 3>> bulges_;  // of each face, or empty: all are flat

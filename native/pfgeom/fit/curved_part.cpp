@@ -1,6 +1,7 @@
 #include "pfgeom/fit/curved_part.h"
 
 #include "pfgeom/fit/collapse.h"
+#include "pfgeom/fit/fitted_surface.h"
 #include "pfgeom/fit/grid.h"
 #include "pfgeom/fit/mend_patches.h"
 
@@ -25,21 +26,21 @@ constexpr double kSpacing = 3, kMostSamples = 2e5, kWorstOfRms = 8;
 }  // namespace
 
 Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options, const Task& task) {
-    const Box box = bounds(mesh);
+    const FittedSurface surface(mesh, options);
     const bool by_max = options.metric == Metric::max;
     const double goal = options.tolerance * options.share;
     const auto within = [&](double share) {
         return CollapseLimits{options.metric, share * goal, (by_max ? share : kWorstOfRms) * goal,
-                              box.diagonal()};
+                              surface.box().diagonal()};
     };
-    CollapseMesh work(mesh, true);
-    CollapseError error(mesh, options.metric, goal,
-                        std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples)), task);
-    error.follow_lines(mesh, task);
+    CollapseMesh work = surface.start(true);
+    CollapseError error =
+        surface.error(goal, std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples)), task);
+    error.follow_lines(surface.original(), task);
     task.report(0, "patches");
     collapse_edges(work, error, within(kFirstShare), task);
     relax_vertices(work, error, within(kFirstShare), task);
-    const Grid grid = Grid::around(box, kStep * goal);
+    const Grid grid = surface.grid(kStep * goal);
     snap_vertices(work, error, within(kLaterShare), grid, false, task);
     const int bulge_code = grid.step_code + kBulgeCode;
     error.quantise(grid, grid.frame.half() * exp2_eighths(bulge_code));
@@ -49,7 +50,7 @@ Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options,
         collapse_edges(work, error, within(kLaterShare), task);
     }
     snap_vertices(work, error, within(kLatticeShare), grid, true, task);
-    Object object = mended_part(mesh, work, error, within(kBulgeShare), grid, bulge_code, task);
+    Object object = mended_part(surface.original(), work, error, within(kBulgeShare), grid, bulge_code, task);
     task.report(1, "patches");
     return object;
 }

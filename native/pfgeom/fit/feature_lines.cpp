@@ -44,8 +44,8 @@ Spokes FeatureLines::spokes_of(const Patch& patch, double near) const {
     const auto on_crease = [&](const Vec3& p) { return creases_.closest(p, near).face >= 0; };
     std::optional<bool> middle_is;
     for (Spoke& s : spokes.list()) {
-        if (s.faces != 2) {
-            s.line = &borders_;
+        if (s.faces != 2 || (s.seam && s.fold < kFollowingCosine)) {
+            s.line = &borders_;  // of a half its cut is one
         } else if (s.fold < kFollowingCosine) {
             if (!middle_is) middle_is = on_crease(middle);
             if (!*middle_is || !on_crease(middle + s.along)) continue;

@@ -44,7 +44,8 @@ class Snapper {
 
     /// Returns whether the limit is kept.
     bool snap(std::int32_t v, double limit) {
-        const Vec3 normal = normal_at(mesh_, v);
+        Vec3 normal = normal_at(mesh_, v);
+        if (mesh_.on_mirror(v)) normal[grid_.mirror->axis] = 0;
         for (int level = kCoarsest; level >= 0; --level) {
             if (try_level(v, normal, level, level > 0 ? kSlack * limit : limit)) return true;
         }
@@ -80,6 +81,12 @@ class Snapper {
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
         return error_.forward(patch_, limit) <= limit && error_.stays_near(patch_, limits_.backward);
     }
+    // On the mirror's plane a vertex stays, and any other off it.
+    GridPoint nearest(std::int32_t v, const Vec3& p) const {
+        GridPoint q = grid_.nearest_above(p);
+        if (mesh_.on_mirror(v)) q[static_cast<std::size_t>(grid_.mirror->axis)] = 0;
+        return q;
+    }
     Vec3 fitted_place() const {
         if (!patch_.curved()) return error_.fitted(patch_);
         Patch fitted = patch_;
@@ -110,7 +117,7 @@ class Snapper {
     // side.
     bool try_level(std::int32_t v, const Vec3& normal, int level, double limit) {
         const Vec3 p = mesh_.point(v);
-        GridPoint q = grid_.nearest(p);
+        GridPoint q = nearest(v, p);
         const std::size_t w = steepest(normal);
         double slide = 0;
         for (const std::size_t axis : {(w + 1) % 3, (w + 2) % 3}) {
@@ -161,7 +168,7 @@ class Snapper {
         };
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
         std::vector<Candidate> candidates;
-        for (const GridPoint& middle : {grid_.nearest(mesh_.point(v)), grid_.nearest(fitted_place())}) {
+        for (const GridPoint& middle : {nearest(v, mesh_.point(v)), nearest(v, fitted_place())}) {
             for (std::int32_t i = 0; i < 27; ++i) {
                 const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
                 candidates.push_back({cost(v, q, kInfinity), q});
@@ -169,7 +176,7 @@ class Snapper {
         }
         std::stable_sort(candidates.begin(), candidates.end(),
                          [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-        Candidate best{kInfinity, grid_.nearest(mesh_.point(v))};
+        Candidate best{kInfinity, nearest(v, mesh_.point(v))};
         candidates.resize(kMostTrials);  // the way back is dear to measure
         for (const auto& [forward, q] : candidates) {
             if (!(forward < best.cost) || best.cost <= limits_.forward) break;

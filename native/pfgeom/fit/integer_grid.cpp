@@ -1,5 +1,6 @@
 #include "pfgeom/fit/integer_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,25 +19,49 @@ std::int32_t rounded(double x) {
 }  // namespace
 
 std::array<std::int32_t, 3> Grid::nearest(const Vec3& p) const {
-    const Vec3 q = frame.to_local(p) / exp2_eighths(step_code);
+    Vec3 local = frame.to_local(p);
+    if (mirror) local[mirror->axis] -= mirror->at;
+    const Vec3 q = local / exp2_eighths(step_code);
     return {rounded(q.x), rounded(q.y), rounded(q.z)};
 }
 
+std::array<std::int32_t, 3> Grid::nearest_above(const Vec3& p) const {
+    std::array<std::int32_t, 3> q = nearest(p);
+    if (mirror)
+        q[static_cast<std::size_t>(mirror->axis)] = std::max(q[static_cast<std::size_t>(mirror->axis)], 1);
+    return q;
+}
+
 Vec3 Grid::point(const std::array<std::int32_t, 3>& q) const {
-    const double s = exp2_eighths(step_code);  // as mesh_of (eval/mesh_part.h) has it
-    return frame.to_world({q[0] * s, q[1] * s, q[2] * s});
+    const MeshPart part{step_code, {}, {}, 0, {}, mirror};
+    return frame.to_world(part.local(q));
 }
 
 Grid Grid::around(const Box& box, double step) {
-    Grid grid{Frame::around(box), 0};
+    Grid grid{Frame::around(box), 0, {}};
     while (grid.step() > step && grid.step_code > kFinestCode) --grid.step_code;
     return grid;
+}
+
+MirrorPlane short_plane(const Frame& frame, const AxisPlane& plane, double error) {
+    constexpr int kMostDigits = 40;
+    Vec3 world;
+    world[plane.axis] = plane.at;
+    const double exact = frame.to_local(world)[plane.axis];
+    MirrorPlane result{plane.axis, exact};
+    for (int digits = 0; digits <= kMostDigits; ++digits) {
+        const double unit = std::ldexp(1.0, -digits);
+        result.at = std::floor(exact / unit + 0.5) * unit;
+        if (std::abs(result.at - exact) * frame.half() <= error) break;
+    }
+    return result;
 }
 
 Object part_on_grid(const TriangleMesh& mesh, const Grid& grid) {
     MeshPart part;
     part.step_code = grid.step_code;
     part.faces = mesh.faces;
+    part.mirror = grid.mirror;
     part.positions.reserve(mesh.vertices.size());
     for (const Vec3& v : mesh.vertices) part.positions.push_back(grid.nearest(v));
     Object object;

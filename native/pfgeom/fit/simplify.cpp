@@ -3,6 +3,7 @@
 #include "pfgeom/base/error.h"
 #include "pfgeom/fit/collapse.h"
 #include "pfgeom/fit/curved_part.h"
+#include "pfgeom/fit/fitted_surface.h"
 #include "pfgeom/fit/grid.h"
 #include "pfgeom/fit/mend_patches.h"
 
@@ -36,32 +37,32 @@ constexpr double kWorstOfRms = 8;
 Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, const Task& task) {
     if (!(options.tolerance > 0)) throw InvalidInput("the tolerance must be above 0");
     if (mesh.faces.empty()) throw InvalidInput("a mesh part needs at least one face");
-    const Box box = bounds(mesh);
-    if (options.share <= 0) return part_on_grid(mesh, Grid::around(box, options.tolerance / 8));
+    if (options.share <= 0) return part_on_grid(mesh, Grid::around(bounds(mesh), options.tolerance / 8));
 
     if (options.curved) return fit_curved_part(mesh, options, task);
     const bool by_max = options.metric == Metric::max;
     const double goal = options.tolerance * options.share;
     const double spacing = std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples));
-    CollapseMesh work(mesh);
-    CollapseError error(mesh, options.metric, goal, spacing, task);
-    const double share = kCollapseShare * goal;
-    const CollapseLimits inner{options.metric, share, by_max ? share : kWorstOfRms * goal, box.diagonal()};
+    const FittedSurface surface(mesh, options);
+    CollapseMesh work = surface.start(false);
+    CollapseError error = surface.error(goal, spacing, task);
+    const double share = kCollapseShare * goal, size = surface.box().diagonal();
+    const CollapseLimits inner{options.metric, share, by_max ? share : kWorstOfRms * goal, size};
     for (int round = 0; round < kRounds; ++round) {
         task.report(static_cast<double>(round) / (kRounds + 1), "simplify");
         if (round > 0) relax_vertices(work, error, inner, task);
         collapse_edges(work, error, inner, task);
     }
-    const CollapseLimits outer{options.metric, goal, by_max ? goal : kWorstOfRms * goal, box.diagonal()};
+    const CollapseLimits outer{options.metric, goal, by_max ? goal : kWorstOfRms * goal, size};
     relax_vertices(work, error, outer, task);
     Object object;
     for (const double step : kSteps) {
-        const Grid grid = Grid::around(box, step * goal);
+        const Grid grid = surface.grid(step * goal);
         CollapseMesh snapped = work;
         CollapseError snapped_error = error;
         if (!snap_vertices(snapped, snapped_error, outer, grid, step == kSteps.back(), task)) continue;
         snapped_error.quantise(grid, 0);
-        object = mended_part(mesh, snapped, snapped_error, outer, grid, 0, task);
+        object = mended_part(surface.original(), snapped, snapped_error, outer, grid, 0, task);
         break;
     }
     task.report(1, "simplify");

@@ -3,7 +3,10 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/function/model.h"
+#include "pfgeom/mesh/halves.h"
 #include "pfgeom/mesh/triangle_mesh.h"
+
+#include <optional>
 
 namespace pfgeom {
 
@@ -14,6 +17,9 @@ struct MeshPartOptions {
     /// simplification, finest quantisation: the safety net, which always holds the tolerance.
     double share = 1.0;
     bool curved = false;  ///< faces are quadratic Bézier triangles, unless share is 0
+    /// The part is to be mirrored in this plane, the half above it fitted to both halves. Only with a share
+    /// above 0.
+    std::optional<AxisPlane> mirror = {};
 };
 
 /// Simplifies by edge collapses ordered by the true two-sided error, then quantises; the result, dequantised,

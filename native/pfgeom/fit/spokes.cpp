@@ -11,6 +11,14 @@ constexpr double kCreaseCosine = 0.3;
 // A bulge is at most this share of its chord: a half circle has a half.
 constexpr double kMostBulge = 0.3;
 
+// With the image of its one face.
+void join(Spoke& s, int axis) {
+    s.fold = 1 - 2 * s.normal[axis] * s.normal[axis];
+    s.normal[axis] = 0;
+    s.faces = 2;
+    s.seam = true;
+}
+
 }  // namespace
 
 Spokes::Spokes(const Patch& patch) {
@@ -26,7 +34,7 @@ Spokes::Spokes(const Patch& patch) {
             const auto i = static_cast<std::size_t>(known - list_.begin());
             of_row_.back()[k] = i;
             if (known == list_.end()) {
-                list_.push_back({end, t[k + 1] - t[0], normal, {}, 1, 1, false, nullptr});
+                list_.push_back({end, t[k + 1] - t[0], normal, {}, 1, 1, false, false, nullptr});
                 first_normal.push_back(normal);
                 continue;
             }
@@ -37,7 +45,8 @@ Spokes::Spokes(const Patch& patch) {
         }
     }
     for (Spoke& s : list_) {
-        s.bent = s.fold < kCreaseCosine || s.faces != 2;
+        if (patch.fixed_axis != Patch::kNoAxis && s.along[patch.fixed_axis] == 0) join(s, patch.fixed_axis);
+        s.bent = !s.seam && (s.fold < kCreaseCosine || s.faces != 2);
         const Vec3 along = normalized(s.along);
         s.normal = normalized(s.normal - along * dot(along, s.normal));
         s.sideways = cross(s.normal, along);

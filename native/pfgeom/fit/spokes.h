@@ -16,8 +16,9 @@ struct Spoke {
     Vec3 along;             ///< from the moving vertex
     Vec3 normal, sideways;  ///< unit vectors across it, or zero: the mean of the faces', and within them
     double fold = 1;        ///< cosine between the normals of its two faces
-    int faces = 0;
-    bool bent = false;          ///< it may bulge sideways too
+    int faces = 0;          ///< with images
+    bool bent = false;      ///< it may bulge sideways too
+    bool seam = false;      ///< it lies on the mirror's plane: its face has an image, and it bulges within
     const Bvh* line = nullptr;  ///< the border or the crease of the original that it follows
 };
 

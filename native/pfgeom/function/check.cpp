@@ -94,6 +94,22 @@ Flaw flaw_of(const Sheet& sheet, const Model& model) {
                                                                  : "its surface or trim does not exist";
 }
 
+Flaw flaw_of_mirror(const MeshPart& part) {
+    if (part.mirror->axis < 0 || part.mirror->axis > 2) return "its mirror has no axis";
+    if (!is_bounded(part.mirror->at, 1)) return "its mirror's plane is outside the cube";
+    for (const Triangle& f : part.faces) {
+        if (part.on_mirror(f[0]) && part.on_mirror(f[1]) && part.on_mirror(f[2]))
+            return "a face lies in the plane of its mirror";
+    }
+    if (!part.curved()) return {};
+    const EdgesOfFaces edges = EdgesOfFaces::of(part.faces);
+    for (std::size_t i = 0; i < edges.ends.size(); ++i) {
+        if (part.is_seam(edges.ends[i]) && part.bulges[i].sideways != 0)
+            return "a bulge leaves the plane of its mirror";
+    }
+    return {};
+}
+
 Flaw flaw_of(const MeshPart& part, const Model&) {
     for (const auto& p : part.positions) {
         const auto outside = [](std::int32_t c) { return c < -kMaxCoordinate || c > kMaxCoordinate; };
@@ -104,13 +120,13 @@ Flaw flaw_of(const MeshPart& part, const Model&) {
         if (std::any_of(f.begin(), f.end(), missing)) return "a face has a corner that does not exist";
         if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) return "a face has the same corner twice";
     }
-    if (!part.curved()) return {};
+    if (!part.curved()) return part.mirror ? flaw_of_mirror(part) : Flaw{};
     if (part.bulges.size() != EdgesOfFaces::of(part.faces).ends.size()) return "not every edge has one bulge";
     const auto too_large = [](const Bulge& b) {
         return std::abs(b.normal) > kMaxCoordinate || std::abs(b.sideways) > kMaxCoordinate;
     };
     if (std::any_of(part.bulges.begin(), part.bulges.end(), too_large)) return "a bulge is beyond 2^27 steps";
-    return {};
+    return part.mirror ? flaw_of_mirror(part) : Flaw{};
 }
 
 Flaw flaw_of(const SetTree& tree, const Model&) {

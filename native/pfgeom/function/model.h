@@ -12,6 +12,7 @@
 #include "pfgeom/function/set_tree.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -112,18 +113,42 @@ struct Bulge {
     friend bool operator==(const Bulge&, const Bulge&) = default;
 };
 
-/// What functions do not take: a coded mesh on an integer grid. Vertex = frame.to_world(positions · step).
-/// Its faces are flat, or quadratic Bézier triangles (function/curved_triangle.h).
+/// A plane across an axis of the cube: where that coordinate is `at`.
+struct MirrorPlane {
+    std::int32_t axis = 0;
+    double at = 0;
+    friend bool operator==(const MirrorPlane&, const MirrorPlane&) = default;
+};
+
+/// What functions do not take: a coded mesh on an integer grid. Vertex = frame.to_world(local(positions)).
+/// Its faces are flat, or quadratic Bézier triangles (function/curved_triangle.h). Of a mirrored part they
+/// are one half: their image belongs to it too, and is joined to them along the edges with both ends on the
+/// plane.
 struct MeshPart {
     int step_code = 0;                                   ///< step = 2^(step_code / 8), in the cube's units
     std::vector<std::array<std::int32_t, 3>> positions;  ///< #V by 3
     std::vector<Triangle> faces;                         ///< #F by 3
     int bulge_code = 0;                                  ///< of the bulges' step, as step_code
     std::vector<Bulge> bulges;  ///< one for each row of EdgesOfFaces::of(faces); empty: all faces are flat
+    std::optional<MirrorPlane> mirror = {};  ///< on its axis positions count from the plane
 
     double step() const { return exp2_eighths(step_code); }
     double bulge_step() const { return exp2_eighths(bulge_code); }
     bool curved() const { return !bulges.empty(); }
+    /// In the cube.
+    Vec3 local(const std::array<std::int32_t, 3>& p) const {
+        Vec3 q = Vec3{1.0 * p[0], 1.0 * p[1], 1.0 * p[2]} * step();
+        if (mirror) q[mirror->axis] += mirror->at;
+        return q;
+    }
+    bool on_mirror(std::int32_t vertex) const {
+        return mirror &&
+               positions[static_cast<std::size_t>(vertex)][static_cast<std::size_t>(mirror->axis)] == 0;
+    }
+    /// Is the edge one along which the halves are joined?
+    bool is_seam(const std::array<std::int32_t, 2>& ends) const {
+        return on_mirror(ends[0]) && on_mirror(ends[1]);
+    }
 
     friend bool operator==(const MeshPart&, const MeshPart&) = default;
 };

@@ -38,7 +38,9 @@ SurfaceMoments moments_of(const TriangleMesh& mesh) {
         for (const Vec3& p : {a, b, c, a + b + c}) add_products(p, weight, rows);
     }
     m.centroid += start;
-    m.spread = principal_axes(rows).values;
+    const PrincipalAxes principal = principal_axes(rows);
+    m.axes = principal.axes;
+    m.spread = principal.values;
     std::sort(m.spread.begin(), m.spread.end());
     return m;
 }

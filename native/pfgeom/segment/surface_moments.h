@@ -10,6 +10,7 @@ namespace pfgeom {
 struct SurfaceMoments {
     double area = 0;
     Vec3 centroid;                   ///< of the area
+    std::array<Vec3, 3> axes;        ///< principal axes about it, in no particular order
     std::array<double, 3> spread{};  ///< rising principal moments ∫ (x·axis)² dA about it
     double volume = 0;               ///< signed; of a closed surface
 

@@ -3,7 +3,9 @@
 #include "codec/random_model.h"
 #include "pfgeom/base/error.h"
 #include "pfgeom/base/random.h"
+#include "pfgeom/codec/header.h"
 #include "pfgeom/codec/mesh_part_codec.h"
+#include "pfgeom/codec/model_codec.h"
 
 #include <gtest/gtest.h>
 
@@ -97,6 +99,36 @@ TEST(Codec, WhatWasDecodedEncodesToTheSameBytes) {
         const std::vector<std::uint8_t> bytes = encode(random_model(seed));
         ASSERT_EQ(encode(decoded(bytes)), bytes) << "seed " << seed;
     }
+}
+
+TEST(Codec, MirroredPartsComeBackAsTheyWere) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        Model model = test::with_mirrored_part(random_model(seed), seed);
+        if (seed % 3 == 0) model = test::with_placements(std::move(model), seed);
+        const std::vector<std::uint8_t> bytes = encode(model);
+        EXPECT_EQ(bytes[4], 3) << "version";
+        const Model back = decoded(bytes);
+        ASSERT_EQ(model.objects.size(), back.objects.size());
+        EXPECT_EQ(std::get<MeshPart>(back.objects.back().shape).mirror,
+                  std::get<MeshPart>(model.objects.back().shape).mirror);
+        for (std::size_t i = 0; i < model.objects.size(); ++i)
+            expect_equal(model.objects[i], back.objects[i]);
+        EXPECT_EQ(encode(back), bytes);
+        ASSERT_FALSE(HasFailure()) << "seed " << seed;
+    }
+}
+
+// Older readers know no such shapes, so that a file of an older version has none.
+TEST(Codec, MirroredPartsAreOfVersionThreeAndNoOther) {
+    const std::vector<std::uint8_t> mirrored = encode(test::with_mirrored_part(test::ball(), 1));
+    const Envelope envelope = *open_envelope(mirrored, {});
+    EXPECT_TRUE(decode(seal_envelope(envelope.stream, {}, 3)));
+    for (const int version : {1, 2})
+        EXPECT_FALSE(decode(seal_envelope(envelope.stream, {}, static_cast<std::uint8_t>(version))));
+    CodecStream stream(3);
+    Model plain = test::ball();
+    code_model(stream, plain);
+    EXPECT_EQ(decode(seal_envelope(stream.coder.finish(), {}, 3)).status(), FormatStatus::bad_header);
 }
 
 TEST(Codec, PlacementsComeBackAsTheyWere) {

@@ -23,7 +23,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::vector<fs::path> golden_folders() {
     const fs::path all = fs::path(__FILE__).parent_path() / ".." / ".." / "golden";
-    return {all / "v1", all / "v2", all / "combined"};
+    return {all / "v1", all / "v2", all / "v3", all / "combined"};
 }
 
 Bytes read(const fs::path& path) {
@@ -83,6 +83,17 @@ std::map<std::string, Model> placed_models() {
     return models;
 }
 
+// Those of version 3: a mirrored mesh part beside each of the others.
+std::map<std::string, Model> mirrored_models() {
+    std::map<std::string, Model> models;
+    for (const auto& [name, model] : golden_models()) {
+        if (model.materials.empty()) models[name] = test::with_mirrored_part(model, name.size());
+    }
+    models["painted"] = test::painted(models["tree"], 7);
+    models["placed"] = test::with_placements(models["curved"], 8);
+    return models;
+}
+
 // With the section of a combination: each operation, a transform alone, nested ones.
 std::map<std::string, Model> combined_models() {
     std::map<std::string, Model> models;
@@ -127,7 +138,7 @@ std::vector<fs::path> small_goldens() {
 
 TEST(Golden, NoFlippedBitAndNoPrefixPasses) {
     const std::vector<fs::path> files = small_goldens();
-    EXPECT_EQ(files.size(), 9U);
+    EXPECT_EQ(files.size(), 12U);
     for (const fs::path& file : files) {
         const Bytes bytes = read(file);
         const std::size_t size = bytes.size();
@@ -141,14 +152,16 @@ TEST(Golden, NoFlippedBitAndNoPrefixPasses) {
     }
 }
 
-// Makes golden files of version 2, or of combinations: PFGEOM_NEW_GOLDENS names their folder. Files that lie
-// there already are taken into the manifest too. Never to be used for a version that was released.
+// Makes golden files of version 2 or 3, or of combinations: PFGEOM_NEW_GOLDENS names their folder. Files that
+// lie there already are taken into the manifest too. Never to be used for a version that was released.
 TEST(Golden, Make) {
     const char* folder = std::getenv("PFGEOM_NEW_GOLDENS");
     if (folder == nullptr) GTEST_SKIP() << "only on demand";
     fs::create_directories(folder);
-    const bool combined = fs::path(folder).filename() == "combined";
-    for (const auto& [file, model] : combined ? combined_models() : placed_models())
+    const fs::path kind = fs::path(folder).filename();
+    for (const auto& [file, model] : kind == "combined" ? combined_models()
+                                     : kind == "v3"     ? mirrored_models()
+                                                        : placed_models())
         write(fs::path(folder) / (file + ".pfg"), encode(model));
     std::map<std::string, std::uint64_t> manifest;
     for (const auto& entry : fs::directory_iterator(folder)) {

@@ -98,7 +98,7 @@ TEST(Header, OtherFilesAreNotOurs) {
 }
 
 TEST(Header, AnotherVersionIsRefusedByName) {
-    for (const int version : {0, 3, 255}) {
+    for (const int version : {0, 4, 255}) {
         Bytes bytes = seal_envelope(kStream, {});
         bytes[4] = static_cast<std::uint8_t>(version);
         EXPECT_EQ(status_of(resealed(bytes)), FormatStatus::unknown_version);

@@ -2,6 +2,7 @@
 
 #include "pfgeom/base/random.h"
 #include "pfgeom/function/edges_of_faces.h"
+#include "pfgeom/mesh/halves.h"
 #include "random_model.h"
 #include "shapes.h"
 
@@ -36,8 +37,10 @@ struct Decoded {
     MeshPart part;
 };
 
-Decoded decoded(std::span<const std::uint8_t> bytes, bool curved = false) {
+Decoded decoded(std::span<const std::uint8_t> bytes, bool curved = false,
+                const std::optional<MirrorPlane>& mirror = {}) {
     Decoded result;
+    result.part.mirror = mirror;
     EntropyCoder coder(bytes);
     ContextMixer mixer;
     result.status = code_mesh_part(coder, mixer, result.part, curved, bytes.size());
@@ -47,7 +50,7 @@ Decoded decoded(std::span<const std::uint8_t> bytes, bool curved = false) {
 
 bool equal(const MeshPart& a, const MeshPart& b) {
     return a.step_code == b.step_code && a.positions == b.positions && a.faces == b.faces &&
-           a.bulge_code == b.bulge_code && a.bulges == b.bulges;
+           a.bulge_code == b.bulge_code && a.bulges == b.bulges && a.mirror == b.mirror;
 }
 
 // What bulges on which edge, as points.
@@ -86,7 +89,7 @@ void expect_one_round_trip(const MeshPart& part) {
     EXPECT_EQ(surface(ordered), surface(part));
     EXPECT_TRUE(equal(canonical(ordered), ordered));
     const std::vector<std::uint8_t> bytes = encoded(ordered);
-    const Decoded result = decoded(bytes, ordered.curved());
+    const Decoded result = decoded(bytes, ordered.curved(), ordered.mirror);
     if (ordered.curved()) {
         EXPECT_EQ(bulges_at(ordered), bulges_at(part));
     }
@@ -150,6 +153,26 @@ TEST(MeshPartCodec, RoundTripOfRandomSoups) {
         expect_round_trip(
             part_of(random_soup(random, vertices, faces), -8 * static_cast<int>(random.below(20))));
     }
+}
+
+// Their faces meet the plane in any way, along edges with many faces too.
+TEST(MeshPartCodec, RoundTripOfMirroredSoups) {
+    Random random(9);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(i);
+        const MeshPart soup = part_of(random_soup(random, 3 + random.below(40), 1 + random.below(120)), -40);
+        expect_round_trip(test::with_mirror(soup, random));
+    }
+}
+
+// Along the cut nothing says that the surface ends there, and a vertex on it has two coordinates.
+TEST(MeshPartCodec, TheCutOfAMirroredPartCostsLittle) {
+    MeshPart whole = part_of(half_above(shapes::bumpy_sphere(4), {0, 0}, 0), -8 * 9), half = whole;
+    half.mirror = MirrorPlane{};
+    const std::size_t open = encoded(canonical(whole)).size(), mirrored = encoded(canonical(half)).size();
+    EXPECT_LT(mirrored, open);
+    Random random(4);
+    expect_round_trip(half);
 }
 
 TEST(MeshPartCodec, RoundTripOfExtremeCoordinates) {

@@ -52,6 +52,7 @@ class ModelHash {
     void add(const MeshPart& m) {
         add(m.step_code), add(m.positions), add(m.faces);
         if (m.curved()) add(m.bulge_code), add(m.bulges);
+        if (m.mirror) add(m.mirror->axis), add(m.mirror->at);
     }
     void add(const TreeQuadric& q) {
         add(q.family), add(q.linear_shift), add(q.square_shift), add(q.n), add(q.quadric);

@@ -98,6 +98,25 @@ inline MeshPart with_random_bulges(MeshPart part, Random& random) {
         const auto any = [&] { return below(random, 2 * most + 1) - most; };
         b = {any(), below(random, 3) == 0 ? any() : 0};
     }
+    const std::vector<std::array<std::int32_t, 2>> ends = EdgesOfFaces::of(part.faces).ends;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        if (part.is_seam(ends[i])) part.bulges[i].sideways = 0;
+    }
+    return part;
+}
+
+/// The flat part as half of a mirrored one: every third vertex is on the plane, in any order.
+inline MeshPart with_mirror(MeshPart part, Random& random) {
+    const std::int32_t axis = below(random, 3);
+    part.mirror = MirrorPlane{axis, (below(random, 257) - 128) / 128.0};
+    for (std::size_t i = 0; i < part.positions.size(); ++i) {
+        std::int32_t& height = part.positions[i][static_cast<std::size_t>(axis)];
+        height = i > 0 && below(random, 3) == 0 ? 0 : std::abs(height) + 1;
+    }
+    std::erase_if(part.faces, [&](const Triangle& t) {
+        return part.on_mirror(t[0]) && part.on_mirror(t[1]) && part.on_mirror(t[2]);
+    });
+    if (part.faces.empty()) part.faces.push_back({0, 1, 2});
     return part;
 }
 
@@ -272,6 +291,18 @@ inline Model ball() {
     Object object;
     object.shape = Solid{{{SetNode::Kind::function, 0, -1, -1}}};
     model.objects.push_back(object);
+    return model;
+}
+
+/// The model and one object more, a mirrored mesh part, flat or curved.
+inline Model with_mirrored_part(Model model, std::uint64_t seed) {
+    Random random(seed);
+    Object object;
+    object.frame = random_frame(random);
+    MeshPart part = with_mirror(random_mesh_part(random), random);
+    object.shape = below(random, 2) == 0 ? part : with_random_bulges(part, random);
+    model.objects.push_back(std::move(object));
+    if (model.names.size() > 1) model.names.emplace_back("M");
     return model;
 }
 

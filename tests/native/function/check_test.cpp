@@ -82,6 +82,29 @@ TEST(Check, IndicesMustExist) {
     EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = too_large; }), "");
 }
 
+TEST(Check, HalvesOfMirroredPartsMeetOnThePlane) {
+    MeshPart half{0, {{0, 0, 0}, {9, 0, 0}, {0, 9, 1}}, {{0, 1, 2}}, 0, {{1, 0}, {0, 1}, {0, 2}}};
+    const auto flaw_of = [](const MeshPart& part) {
+        return flaw_after([&](Model& m) { m.objects[0].shape = part; });
+    };
+    const auto with = [&](std::int32_t axis, double at) {
+        MeshPart part = half;
+        part.mirror = MirrorPlane{axis, at};
+        return part;
+    };
+    EXPECT_EQ(flaw_of(with(2, 0.5)), "");
+    EXPECT_NE(flaw_of(with(3, 0)), "");
+    EXPECT_NE(flaw_of(with(-1, 0)), "");
+    EXPECT_NE(flaw_of(with(2, -1.5)), "");
+    EXPECT_NE(flaw_of(with(2, std::numeric_limits<double>::quiet_NaN())), "");
+    half.positions[2][2] = 0;
+    EXPECT_NE(flaw_of(with(2, 0)), "") << "a face in the plane";
+    half.positions[2][2] = 1;
+    half.bulges[0].sideways = 1;
+    EXPECT_NE(flaw_of(with(2, 0)), "") << "a bulge out of it";
+    EXPECT_EQ(flaw_of(half), "");
+}
+
 TEST(Check, NestingMustNotBeACircle) {
     const auto nested = [](std::vector<std::int32_t> outer) {
         return flaw_after([&outer](Model& m) {

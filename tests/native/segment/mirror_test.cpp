@@ -1,0 +1,74 @@
+#include "pfgeom/segment/mirror.h"
+
+#include "placed_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfgeom {
+namespace {
+
+// Symmetric in x = 0 and in no other plane.
+TriangleMesh casting() {
+    TriangleMesh mesh = shapes::sphere(4);
+    for (Vec3& v : mesh.vertices) v *= 1 + 0.2 * (v.y * v.z * v.z - v.x * v.x * v.y) + 0.3 * v.z * v.y * v.y;
+    return mesh;
+}
+
+std::optional<Mirror> mirror_of(const TriangleMesh& mesh, double share) {
+    return find_mirror(mesh, Bvh(mesh), share * diagonal(mesh), {});
+}
+
+TEST(Mirror, AnAxisIsFoundExactly) {
+    const auto mirror = mirror_of(shapes::translated(casting(), {3, 1, -2}), 1e-3);
+    ASSERT_TRUE(mirror);
+    EXPECT_EQ(mirror->normal, (Vec3{1, 0, 0}));
+    EXPECT_NEAR(mirror->at, 3, 1e-6);
+    EXPECT_LT(mirror->deviation, 1e-6);
+}
+
+TEST(Mirror, IsFoundHoweverAShapeIsTurned) {
+    Random random(5);
+    for (int i = 0; i < 8; ++i) {
+        const Similarity place = shapes::random_place(random, 3);
+        const TriangleMesh mesh = shapes::placed(casting(), place);
+        const auto mirror = mirror_of(mesh, 1e-3);
+        ASSERT_TRUE(mirror);
+        EXPECT_LT(mirror->deviation, 1e-5 * diagonal(mesh));
+        EXPECT_NEAR(std::abs(dot(mirror->normal, place.turn({1, 0, 0}))), 1, 1e-9);
+        EXPECT_NEAR(dot(mirror->normal, place.translation), mirror->at, 1e-4 * diagonal(mesh));
+    }
+}
+
+TEST(Mirror, PlanesBetweenTheAxesAreFound) {
+    const auto mirror = mirror_of(shapes::saddle(), 1e-3);  // x and y can be exchanged
+    ASSERT_TRUE(mirror);
+    EXPECT_NEAR(std::abs(mirror->normal.x), std::sqrt(0.5), 1e-9);
+    EXPECT_NEAR(std::abs(mirror->normal.y), std::sqrt(0.5), 1e-9);
+}
+
+TEST(Mirror, WhatIsNotSymmetricDoesNotBendThePlane) {
+    TriangleMesh mesh = casting();
+    const double size = diagonal(mesh);
+    double widest = 0;
+    for (const Vec3& v : mesh.vertices) widest = std::max(widest, v.x);
+    for (Vec3& v : mesh.vertices) v.x += 1.5e-3 * size * std::max(0.0, (v.x / widest - 0.9) / 0.1);
+    EXPECT_FALSE(mirror_of(mesh, 5e-4));
+    const auto mirror = mirror_of(mesh, 2e-3);
+    ASSERT_TRUE(mirror);
+    EXPECT_EQ(mirror->normal, (Vec3{1, 0, 0}));
+    EXPECT_NEAR(mirror->at, 0, 1e-4 * size);
+    EXPECT_GT(mirror->deviation, 5e-4 * size);
+}
+
+TEST(Mirror, AFreeFormHasNone) {
+    TriangleMesh mesh = shapes::bumpy_sphere();
+    for (Vec3& v : mesh.vertices) v += Vec3{0.2 * v.y * v.z, 0.1 * v.x * v.x * v.y, 0.2 * v.x * v.y};
+    EXPECT_FALSE(mirror_of(mesh, 1e-2));
+    EXPECT_FALSE(mirror_of({}, 1));
+}
+
+}  // namespace
+}  // namespace pfgeom
