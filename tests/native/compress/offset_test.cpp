@@ -66,8 +66,8 @@ TEST(Offset, OfASphereIsAQuadric) {
 TEST(Offset, DoesNotDependOnThreads) {
     const Model torus = compressed(shapes::torus(1, 0.4, 24, 12), 1e-2);
     const CompressOptions options{.tolerance = 1e-2, .effort = Effort::fast};
-    EXPECT_EQ(offset(torus, 0.1, options, {.threads = 1}).bytes,
-              offset(torus, 0.1, options, {.threads = 2}).bytes);
+    EXPECT_EQ(offset(torus, 0.1, options, quiet({}, 1)).bytes,
+              offset(torus, 0.1, options, quiet({}, 2)).bytes);
 }
 
 TEST(Offset, NamesWhatItCannotDo) {
@@ -80,7 +80,7 @@ TEST(Offset, NamesWhatItCannotDo) {
     EXPECT_THROW(offset(Model{}, 0.1, {}), InvalidInput);
     CancelToken token;
     token.cancel();
-    EXPECT_THROW(offset(ball, 0.1, {}, {.threads = 1, .cancel = &token}), Cancelled);
+    EXPECT_THROW(offset(ball, 0.1, {}, {1, &token, {}}), Cancelled);
 }
 
 }  // namespace
