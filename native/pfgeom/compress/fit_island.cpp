@@ -25,17 +25,20 @@ void take_cheaper(std::optional<Outcome> outcome, std::optional<Outcome>& best) 
 // made for comparison. The estimate of the mesh says when that is so. Where it is not, the mesh is made
 // before the tree is mended and proved, which takes longest, and limits it (thingi-1706459 at 1e-3).
 std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
-    const MeshEstimate estimate = estimate_mesh(goal, task);
-    const std::size_t least = estimate.least_mirrored();
     const bool all = goal.effort == Effort::best, large = goal.mesh.faces.size() > kQuickMesh;
+    std::optional<MeshEstimate> known;  // once it is asked for: not for scans
+    const auto estimate = [&]() -> const MeshEstimate& {
+        return known ? *known : known.emplace(estimate_mesh(goal, task));
+    };
+    const auto surely_less = [&](std::size_t bytes) { return kSure * bytes < estimate().least_mirrored(); };
     std::optional<Outcome> plain;
     const auto limit = [&](std::size_t bytes) {
-        if (!plain && kSure * bytes >= least) plain = try_mesh(goal, estimate, task);
-        return plain && plain->holds ? std::min(plain->bytes, estimate.likely) : estimate.likely;
+        if (!plain && !surely_less(bytes)) plain = try_mesh(goal, known, task);
+        return plain && plain->holds ? std::min(plain->bytes, estimate().likely) : estimate().likely;
     };
     std::optional<Outcome> best = try_tree(goal, limit, task);
-    if (best && kSure * best->bytes < least && !all) return best;
-    if (!plain) plain = try_mesh(goal, estimate, task);
+    if (best && surely_less(best->bytes) && !all) return best;
+    if (!plain) plain = try_mesh(goal, known, task);
     // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
     // None has beaten a tree.
     if (all || (!best && !large) || !plain->holds) {
