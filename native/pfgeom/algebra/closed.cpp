@@ -32,8 +32,9 @@ void require_closed(const Model& model) {
         const auto& shape = model.objects[i].shape;
         const auto* part = std::get_if<MeshPart>(&shape);
         if (!std::holds_alternative<Sheet>(shape) && (!part || is_closed(*part))) continue;
-        throw InvalidInput("object " + std::to_string(i) +
-                           " is an open surface, which has no inside: set operations and offsets take closed objects");
+        throw InvalidInput(
+            "object " + std::to_string(i) +
+            " is an open surface, which has no inside: set operations and offsets take closed objects");
     }
 }
 

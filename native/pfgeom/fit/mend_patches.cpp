@@ -14,8 +14,10 @@ namespace {
 // One round most often mends what samples missed (os-plane at 1e-3: 53 points and 2 edges), but three edges
 // of rocker-arm were left after four: from the third on what is left is divided.
 constexpr std::size_t kRounds = 6, kPatience = 2;
-// At a tight border more can become wrong with each round (bunny: 861, 1,004, 11,850, 217,019 points).
-constexpr std::size_t kDiverging = 4;
+// At a tight border more can become wrong with each round (bunny: 861, 1,004, 11,850, 217,019 points): so
+// many times before. And what is wrong all over the mesh, at more than so many points a face, is not mended
+// one by one.
+constexpr std::size_t kDiverging = 4, kMostOfFace = 4, kFew = 1000;
 // What is mended may use this share of the limits, which leaves some to the steps of the bulges.
 constexpr double kShare = 0.99;
 
@@ -102,7 +104,9 @@ Object mended_part(const TriangleMesh& original, CollapseMesh& mesh, CollapseErr
         if (!by_max || round == kRounds) return object;
         const std::vector<MissedPoint> missed = missed_points(original, mesh, limits.forward, task);
         const std::size_t wrong = edges.size() + missed.size();
-        if (wrong == 0 || (round >= kPatience && wrong > kDiverging * before)) return object;
+        const bool hopeless = wrong > kFew + kMostOfFace * mesh.face_count() ||
+                              (round >= kPatience && wrong > kDiverging * before);
+        if (wrong == 0 || hopeless) return object;
         before = wrong;
         error.add(missed);
         const std::vector<std::int32_t> vertices = vertices_of(mesh, edges, missed);
