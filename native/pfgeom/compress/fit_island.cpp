@@ -14,6 +14,8 @@ constexpr std::size_t kLeastFaces = 100;
 // The estimate is of flat faces; curved ones take down to half of it (thingi-1706459 at 1e-3: 826 bytes where
 // the estimate says 1,170 and its tree takes 1,124).
 constexpr std::size_t kSure = 2;
+// A tree of so few bytes is not compared: a mesh could save a dozen of them, at many times the work.
+constexpr std::size_t kFewBytes = 120;
 // Nor are fewer than this worth a sheet, which takes some 40 bytes.
 constexpr std::size_t kLeastFacesOfSheet = 16;
 
@@ -30,7 +32,9 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
     const auto estimate = [&]() -> const MeshEstimate& {
         return known ? *known : known.emplace(estimate_mesh(goal, task));
     };
-    const auto surely_less = [&](std::size_t bytes) { return kSure * bytes < estimate().least_mirrored(); };
+    const auto surely_less = [&](std::size_t bytes) {
+        return bytes <= kFewBytes || kSure * bytes < estimate().least_mirrored();
+    };
     std::optional<Outcome> plain;
     const auto limit = [&](std::size_t bytes) {
         if (!plain && !surely_less(bytes)) plain = try_mesh(goal, known, task);

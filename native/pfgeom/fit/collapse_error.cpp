@@ -170,10 +170,11 @@ double CollapseError::rims(const Patch& patch, double limit, double enough) cons
     return std::sqrt(worst);
 }
 
-// The distance from a face is convex, and so largest at a corner of a flat part.
-bool CollapseError::all_within(const std::array<Vec3, 3>& part, double limit, std::int32_t face) const {
-    return std::ranges::all_of(
-        part, [&](const Vec3& p) { return bvh_.squared_distance(p, face) <= limit * limit; });
+// The distance from a face is convex: no point of a flat part is farther than the farthest corner.
+double CollapseError::farthest_corner(const std::array<Vec3, 3>& part, std::int32_t face) const {
+    double worst = 0;
+    for (const Vec3& p : part) worst = std::max(worst, bvh_.squared_distance(p, face));
+    return std::sqrt(worst);
 }
 
 // Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface
@@ -182,7 +183,7 @@ template <class Surface>
 double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double finest,
                                double limit, double enough, std::int32_t hint) const {
     const double harmless = kHarmless * tolerance_;
-    double worst = 0;
+    double worst = 0, known = 0;  // of points; of whole parts
     std::vector<std::array<Vec3, 3>> parts_left{corners};
     while (!parts_left.empty()) {
         const auto [a, b, c] = parts_left.back();
@@ -198,11 +199,18 @@ double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface
         const double distance = std::sqrt(found.squared_distance);
         worst = std::max(worst, distance);
         const double most = std::max(worst, harmless);
-        if (distance + rise <= most || (surface.flat() && all_within({a, b, c}, most, found.face))) continue;
+        if (distance + rise <= most) continue;
+        if (surface.flat()) {
+            const double farthest = farthest_corner({a, b, c}, found.face);
+            if (farthest <= limit) {
+                known = std::max(known, farthest);
+                continue;
+            }
+        }
         const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
         parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
-    return worst;
+    return std::max(worst, known);
 }
 
 double CollapseError::backward(const Patch& patch, double limit, double enough) const {

@@ -50,9 +50,9 @@ class Surface {
     // largest at a corner.
     bool within_limit_of(std::int32_t face, const Corners& part) const {
         if (mesh_.curved()) return false;
-        const auto [a, b, c] = mesh_.corners(face);
+        const Corners t = mesh_.corners(face);
         return std::ranges::all_of(part, [&](const Vec3& p) {
-            return squared_norm(closest_point_on_triangle(p, a, b, c) - p) <= limit_ * limit_;
+            return squared_norm(closest_point_on_triangle(p, t[0], t[1], t[2]) - p) <= limit_ * limit_;
         });
     }
 
