@@ -183,7 +183,7 @@ template <class Surface>
 double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double finest,
                                double limit, double enough, std::int32_t hint) const {
     const double harmless = kHarmless * tolerance_;
-    double worst = 0, known = 0;  // of points; of whole parts
+    double worst = 0;
     std::vector<std::array<Vec3, 3>> parts_left{corners};
     while (!parts_left.empty()) {
         const auto [a, b, c] = parts_left.back();
@@ -200,17 +200,11 @@ double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface
         worst = std::max(worst, distance);
         const double most = std::max(worst, harmless);
         if (distance + rise <= most) continue;
-        if (surface.flat()) {
-            const double farthest = farthest_corner({a, b, c}, found.face);
-            if (farthest <= limit) {
-                known = std::max(known, farthest);
-                continue;
-            }
-        }
+        if (surface.flat() && farthest_corner({a, b, c}, found.face) <= std::max(most, enough)) continue;
         const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
         parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
-    return std::max(worst, known);
+    return worst;
 }
 
 double CollapseError::backward(const Patch& patch, double limit, double enough) const {
