@@ -75,7 +75,7 @@ TEST(MirroredModel, AnswersLikeAnyOther) {
         if (std::abs(distance) < 2 * c.model.promise.tolerance) continue;
         EXPECT_EQ(field.value(p) > 0, distance > 0);
     }
-    const Model moved = transformed(c.model, {{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {5, 0, 0}});
+    const Model moved = transformed(c.model, Affine{{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {5, 0, 0}});
     EXPECT_EQ(encode(*decode(encode(moved | c.model))), encode(moved | c.model));
 }
 
