@@ -35,11 +35,7 @@ def _add_compress(commands: Any) -> None:
     command = commands.add_parser("compress", help="a mesh into a .pfg file")
     command.add_argument("input", metavar="IN", help="OBJ, PLY, STL or OFF file")
     command.add_argument("output", metavar="OUT.pfg", type=_path_ending(".pfg"))
-    command.add_argument(
-        "--tolerance", type=_positive, default=1e-3, metavar="T",
-        help="allowed deviation, as a share of the bounding box's diagonal (default 1e-3)",
-    )  # fmt: skip
-    _add_absolute(command)
+    _add_tolerance(command, "allowed deviation, as a share of the bounding box's diagonal")
     _add_fit(command)
     command.add_argument("--no-materials", dest="materials", action="store_false", help="leave materials out")
     _add_common(command)
@@ -158,17 +154,18 @@ def _add_offset(commands: Any) -> None:
     command.add_argument(
         "--distance", type=float, required=True, metavar="D", help="in the model's units; negative: shrunk"
     )
-    command.add_argument(
-        "--tolerance", type=_positive, default=1e-3, metavar="T",
-        help="allowed deviation from the exact offset, as a share of the model's diagonal (default 1e-3)",
-    )  # fmt: skip
-    _add_absolute(command)
+    _add_tolerance(command, "allowed deviation from the exact offset, as a share of the model's diagonal")
     _add_fit(command)
     _add_common(command)
 
 
 def _add_output(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="OUT.pfg", type=_path_ending(".pfg"), required=True)
+
+
+def _add_tolerance(command: argparse.ArgumentParser, what: str) -> None:
+    command.add_argument("--tolerance", type=_positive, default=1e-3, metavar="T", help=f"{what} (default 1e-3)")
+    _add_absolute(command)
 
 
 def _add_fit(command: argparse.ArgumentParser) -> None:

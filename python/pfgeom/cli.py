@@ -71,6 +71,16 @@ def _fail(sentence: str) -> int:
 # --- commands --------------------------------------------------------------------------------------------------
 
 
+def _fit_options(args: argparse.Namespace) -> dict[str, Any]:
+    return {
+        "tolerance": args.tolerance,
+        "relative": not args.absolute,
+        "metric": args.metric,
+        "effort": args.effort,
+        "threads": args.threads,
+    }
+
+
 def run_compress(args: argparse.Namespace) -> None:
     _check_target(args.output)
     mesh = read_mesh(args.input)
@@ -80,15 +90,7 @@ def run_compress(args: argparse.Namespace) -> None:
         print(f"pfgeom: note: not kept: {', '.join(mesh.not_kept)}", file=sys.stderr)
     start = time.perf_counter()
     with progress_bar(quiet=args.quiet) as progress:
-        model = compress(
-            mesh,
-            tolerance=args.tolerance,
-            relative=not args.absolute,
-            metric=args.metric,
-            effort=args.effort,
-            threads=args.threads,
-            progress=progress,
-        )
+        model = compress(mesh, **_fit_options(args), progress=progress)
     seconds = time.perf_counter() - start
     model.save(args.output)
     _print(args, compress_figures(args, model, mesh.not_kept, seconds), tables.compressed)
@@ -178,15 +180,7 @@ def run_offset(args: argparse.Namespace) -> None:
     _check_target(args.output)
     model = load(args.input)
     with progress_bar(quiet=args.quiet) as progress:
-        result = model.offset(
-            args.distance,
-            tolerance=args.tolerance,
-            relative=not args.absolute,
-            metric=args.metric,
-            effort=args.effort,
-            threads=args.threads,
-            progress=progress,
-        )
+        result = model.offset(args.distance, **_fit_options(args), progress=progress)
     result.save(args.output)
     _print(args, {"input": args.output, **result.info()}, tables.info)
 

@@ -176,6 +176,13 @@ inline TriangleMesh open_cone(int sides = 32) {
     return mesh;
 }
 
+/// Closed and of no quadrics; symmetric in x = 0 and in no other plane.
+inline TriangleMesh casting() {
+    TriangleMesh mesh = sphere(4);
+    for (Vec3& v : mesh.vertices) v *= 1 + 0.2 * (v.y * v.z * v.z - v.x * v.x * v.y) + 0.3 * v.z * v.y * v.y;
+    return mesh;
+}
+
 /// z = height * x y over [-1,1]².
 inline TriangleMesh saddle(int cells = 16, double height = 0.5) {
     TriangleMesh mesh;

@@ -66,7 +66,7 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task);
 
 /// Simplified and coded mesh, its faces flat or curved: any shape; always holds. An estimate that is not
 /// known is made where it is needed.
-Outcome try_mesh(const Goal& goal, const std::optional<MeshEstimate>& known, const Task& task);
+Outcome try_mesh(const Goal& goal, std::optional<MeshEstimate> known, const Task& task);
 
 /// The cheapest candidate that holds, for an oriented island that is closed, or a manifold with a border.
 /// Nothing: it is for a mesh part.

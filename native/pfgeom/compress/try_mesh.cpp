@@ -65,11 +65,11 @@ Outcome flat_by_rms(const WantedMesh& wanted, const Task& task) {
 
 // Flat faces are not made where curved ones take fewer bytes than flat ones hardly ever do. With less of the
 // tolerance either only becomes more, so that is not tried where the other does no worse with all of it.
-Outcome best_by_max(const WantedMesh& wanted, const std::optional<MeshEstimate>& known, const Task& task) {
+Outcome best_by_max(const WantedMesh& wanted, std::optional<MeshEstimate>& known, const Task& task) {
     Outcome curved = attempt_mesh(wanted, 1, true, task);
     if (curved.holds) {
-        const MeshEstimate estimate = known ? *known : estimate_mesh(wanted.goal, task);
-        if (curved.bytes < (wanted.mirror ? estimate.least_mirrored() : estimate.least)) return curved;
+        if (!known) known = estimate_mesh(wanted.goal, task);
+        if (curved.bytes < (wanted.mirror ? known->least_mirrored() : known->least)) return curved;
     }
     Outcome flat = attempt_mesh(wanted, kFlatShare, false, task);
     for (const double share : {0.96, 0.9}) {
@@ -81,7 +81,7 @@ Outcome best_by_max(const WantedMesh& wanted, const std::optional<MeshEstimate>&
     return better ? std::move(curved) : std::move(flat);
 }
 
-Outcome best_of(const WantedMesh& wanted, const std::optional<MeshEstimate>& known, const Task& task) {
+Outcome best_of(const WantedMesh& wanted, std::optional<MeshEstimate>& known, const Task& task) {
     const Goal& goal = wanted.goal;
     const bool by_max = goal.metric == Metric::max;
     const bool quick = by_max && goal.mesh.faces.size() <= kMostCurved;
@@ -114,7 +114,7 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task) {
             static_cast<std::size_t>(kMostBytes * static_cast<double>(left[0])), mirror_of(goal, task)};
 }
 
-Outcome try_mesh(const Goal& goal, const std::optional<MeshEstimate>& known, const Task& task) {
+Outcome try_mesh(const Goal& goal, std::optional<MeshEstimate> known, const Task& task) {
     const std::optional<Mirror> mirror = known ? known->mirror : mirror_of(goal, task);
     if (std::optional<MirrorPose> pose = mirror_pose(goal, mirror)) {
         Outcome outcome = best_of({goal, std::move(pose)}, known, task);

@@ -170,13 +170,6 @@ double CollapseError::rims(const Patch& patch, double limit, double enough) cons
     return std::sqrt(worst);
 }
 
-// The distance from a face is convex: no point of a flat part is farther than the farthest corner.
-double CollapseError::farthest_corner(const std::array<Vec3, 3>& part, std::int32_t face) const {
-    double worst = 0;
-    for (const Vec3& p : part) worst = std::max(worst, bvh_.squared_distance(p, face));
-    return std::sqrt(worst);
-}
-
 // Distances are 1-Lipschitz, which would make this a proof at many times the cost; over most of a surface
 // they change far more slowly, as closeness_ has it. `surface` makes points of parameters.
 template <class Surface>
@@ -200,7 +193,7 @@ double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface
         worst = std::max(worst, distance);
         const double most = std::max(worst, harmless);
         if (distance + rise <= most) continue;
-        if (surface.flat() && farthest_corner({a, b, c}, found.face) <= std::max(most, enough)) continue;
+        if (surface.flat() && bvh_.farthest_corner({a, b, c}, found.face) <= std::max(most, enough)) continue;
         const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
         parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }

@@ -118,7 +118,6 @@ class CollapseError {
     template <class Surface>
     double farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double finest, double limit,
                     double enough, std::int32_t hint) const;
-    double farthest_corner(const std::array<Vec3, 3>& part, std::int32_t face) const;
     double rims(const Patch& patch, double limit, double enough) const;
     void add(const Vec3& p, double weight, std::int32_t face);
     void sample_edges(const TriangleMesh& mesh, double spacing);

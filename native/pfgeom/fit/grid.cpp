@@ -1,6 +1,7 @@
 #include "pfgeom/fit/grid.h"
 
 #include "pfgeom/base/parallel.h"
+#include "pfgeom/base/sort_unique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,8 +73,7 @@ class Snapper {
                 }
                 failed.push_back(v);
             }
-            std::sort(failed.begin(), failed.end());
-            failed.erase(std::unique(failed.begin(), failed.end()), failed.end());
+            sort_unique(failed);
             open = std::move(failed);
             if (open.size() > kFewOpen + mesh_.face_count() / kFacesPerOpen) break;
         }
@@ -223,8 +223,7 @@ std::vector<std::int32_t> vertices_over(const CollapseMesh& mesh, const Collapse
         const Triangle& t = mesh.face(faces[i]);
         if (over[i] != 0) vertices.insert(vertices.end(), t.begin(), t.end());
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
 }
 

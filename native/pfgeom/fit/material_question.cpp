@@ -1,5 +1,7 @@
 #include "pfgeom/fit/material_question.h"
 
+#include "pfgeom/base/sort_unique.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -56,8 +58,7 @@ class QuestionSearch {
         const std::size_t step = 1 + forced.size() / kMostLookedAt;
         for (std::size_t k = 0; k < forced.size(); k += step) chosen_.push_back(forced[k]);
         for (const std::uint32_t i : chosen_) materials_.push_back(samples_[i].material);
-        std::sort(materials_.begin(), materials_.end());
-        materials_.erase(std::unique(materials_.begin(), materials_.end()), materials_.end());
+        sort_unique(materials_);
         for (const std::uint32_t i : chosen_) {
             const auto at = std::lower_bound(materials_.begin(), materials_.end(), samples_[i].material);
             local_.push_back(static_cast<std::uint32_t>(at - materials_.begin()));

@@ -1,5 +1,6 @@
 #include "pfgeom/fit/mend_patches.h"
 
+#include "pfgeom/base/sort_unique.h"
 #include "pfgeom/fit/bulge_grid.h"
 #include "pfgeom/fit/grid.h"
 #include "pfgeom/fit/missed_points.h"
@@ -40,8 +41,7 @@ std::vector<std::int32_t> vertices_of(const CollapseMesh& mesh, const std::vecto
         const Triangle& t = mesh.face(m.face);
         vertices.insert(vertices.end(), t.begin(), t.end());
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
 }
 

@@ -46,14 +46,9 @@ class Surface {
     }
     double limit() const { return limit_; }
 
-    // Is all of the part within the limit of this one face? The distance from a flat one, which is convex, is
-    // largest at a corner.
-    bool within_limit_of(std::int32_t face, const Corners& part) const {
-        if (mesh_.curved()) return false;
-        const Corners t = mesh_.corners(face);
-        return std::ranges::all_of(part, [&](const Vec3& p) {
-            return squared_norm(closest_point_on_triangle(p, t[0], t[1], t[2]) - p) <= limit_ * limit_;
-        });
+    // Is all of the part within the limit of one face, as closest() gives it in `hint`?
+    bool within_limit_of(std::int32_t hint, const Corners& part) const {
+        return !mesh_.curved() && bvh_.farthest_corner(part, hint) <= limit_;
     }
 
   private:
@@ -110,7 +105,7 @@ class Search {
             const double reach = std::sqrt(
                 std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
             if (reach < finest || distance + fineness_.slope * reach <= limit_) continue;
-            if (surface_.within_limit_of(found.face, {a, b, c})) continue;
+            if (surface_.within_limit_of(hint_, {a, b, c})) continue;
             const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
             open_.insert(open_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
         }

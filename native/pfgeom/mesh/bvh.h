@@ -50,8 +50,8 @@ class Bvh {
     ClosestPoint closest(const Vec3& p, double within = std::numeric_limits<double>::infinity(),
                          std::int32_t hint = -1, double enough = -1) const;
 
-    /// To one face.
-    double squared_distance(const Vec3& p, std::int32_t face) const;
+    /// From one face to a triangle: the distance is convex, so no point is farther than the farthest corner.
+    double farthest_corner(const std::array<Vec3, 3>& triangle, std::int32_t face) const;
 
     /// Adds the faces that are within `distance` of p, in no particular but always the same order.
     void faces_within(const Vec3& p, double distance, std::vector<std::int32_t>& faces) const;

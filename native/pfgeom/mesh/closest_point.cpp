@@ -124,9 +124,12 @@ ClosestPoint Bvh::closest(const Vec3& p, double within, std::int32_t hint, doubl
     return best;
 }
 
-double Bvh::squared_distance(const Vec3& p, std::int32_t face) const {
+double Bvh::farthest_corner(const std::array<Vec3, 3>& triangle, std::int32_t face) const {
     const Vec3* t = &corners_[3 * static_cast<std::size_t>(position_[static_cast<std::size_t>(face)])];
-    return squared_norm(closest_point_on_triangle(p, t[0], t[1], t[2]) - p);
+    double worst = 0;
+    for (const Vec3& p : triangle)
+        worst = std::max(worst, squared_norm(closest_point_on_triangle(p, t[0], t[1], t[2]) - p));
+    return std::sqrt(worst);
 }
 
 void Bvh::faces_within(const Vec3& p, double distance, std::vector<std::int32_t>& faces) const {

@@ -1,6 +1,7 @@
 #include "pfgeom/mesh/prepare.h"
 
 #include "pfgeom/base/error.h"
+#include "pfgeom/base/sort_unique.h"
 #include "pfgeom/mesh/islands.h"
 #include "pfgeom/mesh/seams.h"
 #include "pfgeom/mesh/weld.h"
@@ -61,8 +62,7 @@ TriangleMesh extract_island(const PreparedMesh& prepared, const Island& island) 
     rows.reserve(3 * island.faces.size());
     for (const std::int32_t face : island.faces)
         for (const std::int32_t v : prepared.mesh.faces[face]) rows.push_back(v);
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    sort_unique(rows);
 
     TriangleMesh out;
     for (const std::int32_t row : rows) out.vertices.push_back(prepared.mesh.vertices[row]);

@@ -4,6 +4,7 @@
 // but in one pass, within a fixed small distance.
 #include "pfgeom/mesh/seams.h"
 
+#include "pfgeom/base/sort_unique.h"
 #include "pfgeom/mesh/edges.h"
 #include "pfgeom/mesh/near_vertices.h"
 #include "pfgeom/mesh/point_tree.h"
@@ -32,8 +33,7 @@ std::vector<std::int32_t> vertices_of(const std::vector<Triangle>& faces, const 
         const auto [a, b] = ends_of(faces, side);
         vertices.insert(vertices.end(), {a, b});
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
 }
 

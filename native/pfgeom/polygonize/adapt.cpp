@@ -9,6 +9,7 @@
 #include "pfgeom/polygonize/adapt.h"
 
 #include "pfgeom/base/parallel.h"
+#include "pfgeom/base/sort_unique.h"
 #include "pfgeom/polygonize/edge_tests.h"
 #include "pfgeom/polygonize/project.h"
 
@@ -139,8 +140,7 @@ std::vector<std::int32_t> Adapter::high_edges() {
         const bool worst = worst_of_face(h, own) && worst_of_face(mesh_.twin(h), own);
         (worst ? chosen : waiting).push_back(std::min(h, mesh_.twin(h)));
     }
-    std::sort(chosen.begin(), chosen.end());
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    sort_unique(chosen);
     touched_ = std::move(waiting);
     return chosen;
 }
@@ -153,8 +153,7 @@ void Adapter::check_faces() {
         split_edges(edges_of_far_faces(faces));
         flip_edges();
         split_high_edges();
-        std::sort(changed_.begin(), changed_.end());
-        changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+        sort_unique(changed_);
         faces = changed_;
     }
 }

@@ -14,6 +14,7 @@
 // diagonal is drawn there).
 #include "pfgeom/polygonize/dual.h"
 
+#include "pfgeom/base/sort_unique.h"
 #include "pfgeom/polygonize/leaf_surface.h"
 #include "pfgeom/polygonize/project.h"
 
@@ -161,8 +162,7 @@ std::vector<std::int32_t> DualMesher::leaves_missing() const {
             missing.push_back(octree_.find(cell, kDeepest));
         }
     }
-    std::sort(missing.begin(), missing.end());
-    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+    sort_unique(missing);
     return missing;
 }
 

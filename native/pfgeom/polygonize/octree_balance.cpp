@@ -1,6 +1,5 @@
+#include "pfgeom/base/sort_unique.h"
 #include "pfgeom/polygonize/octree.h"
-
-#include <algorithm>
 
 namespace pfgeom {
 
@@ -14,8 +13,7 @@ void Octree::balance() {
                 if (i % 1024 == 0) task_.check();
                 if (nodes_[i].depth == depth && !nodes_[i].leaf()) add_coarse_neighbours(nodes_[i], coarse);
             }
-            std::sort(coarse.begin(), coarse.end());
-            coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
+            sort_unique(coarse);
             if (coarse.empty()) break;
             sample_corners(split(coarse), false);
         }

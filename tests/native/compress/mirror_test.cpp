@@ -14,11 +14,8 @@ namespace {
 
 // Symmetric in x = 0; closed and creased, its sides of no quadrics.
 TriangleMesh casting() {
-    TriangleMesh mesh = shapes::sphere(4);
-    for (Vec3& v : mesh.vertices) {
-        v *= 1 + 0.2 * (v.y * v.z * v.z - v.x * v.x * v.y) + 0.3 * v.z * v.y * v.y;
-        v.z = std::max(v.z, -0.4 + 0.1 * v.y * v.y * v.y);
-    }
+    TriangleMesh mesh = shapes::casting();
+    for (Vec3& v : mesh.vertices) v.z = std::max(v.z, -0.4 + 0.1 * v.y * v.y * v.y);
     return mesh;
 }
 

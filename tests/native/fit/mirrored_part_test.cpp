@@ -13,13 +13,6 @@
 namespace pfgeom {
 namespace {
 
-// Symmetric in x = 0.
-TriangleMesh casting() {
-    TriangleMesh mesh = shapes::sphere(4);
-    for (Vec3& v : mesh.vertices) v *= 1 + 0.2 * (v.y * v.z * v.z - v.x * v.x * v.y) + 0.3 * v.z * v.y * v.y;
-    return mesh;
-}
-
 // Open, with a sharp fold along x = 0.
 TriangleMesh hood() {
     TriangleMesh mesh = shapes::saddle(24);
@@ -43,7 +36,7 @@ double reached(const TriangleMesh& mesh, const Object& object, double tolerance)
 }
 
 TEST(MirroredPart, BothHalvesKeepTheTolerance) {
-    for (const TriangleMesh& mesh : {casting(), hood(), shapes::torus(), shapes::cylinder()}) {
+    for (const TriangleMesh& mesh : {shapes::casting(), hood(), shapes::torus(), shapes::cylinder()}) {
         const double tolerance = 5e-3 * diagonal(mesh);
         for (const bool curved : {false, true}) {
             SCOPED_TRACE(testing::Message() << mesh.faces.size() << " faces, curved: " << curved);
@@ -56,7 +49,7 @@ TEST(MirroredPart, BothHalvesKeepTheTolerance) {
 }
 
 TEST(MirroredPart, AClosedSurfaceComesBackClosed) {
-    for (const TriangleMesh& mesh : {casting(), shapes::torus(), shapes::cylinder()}) {
+    for (const TriangleMesh& mesh : {shapes::casting(), shapes::torus(), shapes::cylinder()}) {
         for (const double share : {1e-2, 5e-3}) {
             for (const bool curved : {false, true}) {
                 const Object half = fitted(mesh, share * diagonal(mesh), curved);
@@ -92,7 +85,7 @@ TEST(MirroredPart, IsExactlySymmetric) {
 
 // Halves that differ by half of the tolerance: the part passes between them.
 TEST(MirroredPart, NearlySymmetricHalvesShareTheTolerance) {
-    TriangleMesh mesh = casting();
+    TriangleMesh mesh = shapes::casting();
     const double tolerance = 5e-3 * diagonal(mesh);
     for (Vec3& v : mesh.vertices) {
         if (v.x > 0) v *= 1 + 0.5 * tolerance * v.x * v.x;
@@ -102,7 +95,7 @@ TEST(MirroredPart, NearlySymmetricHalvesShareTheTolerance) {
 }
 
 TEST(MirroredPart, IsTheSameEachTime) {
-    const Object a = fitted(casting(), 1e-2, true), b = fitted(casting(), 1e-2, true);
+    const Object a = fitted(shapes::casting(), 1e-2, true), b = fitted(shapes::casting(), 1e-2, true);
     EXPECT_EQ(a, b);
     EXPECT_EQ(canonical(std::get<MeshPart>(a.shape)), canonical(std::get<MeshPart>(b.shape)));
 }

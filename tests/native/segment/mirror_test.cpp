@@ -10,19 +10,12 @@
 namespace pfgeom {
 namespace {
 
-// Symmetric in x = 0 and in no other plane.
-TriangleMesh casting() {
-    TriangleMesh mesh = shapes::sphere(4);
-    for (Vec3& v : mesh.vertices) v *= 1 + 0.2 * (v.y * v.z * v.z - v.x * v.x * v.y) + 0.3 * v.z * v.y * v.y;
-    return mesh;
-}
-
 std::optional<Mirror> mirror_of(const TriangleMesh& mesh, double share) {
     return find_mirror(mesh, Bvh(mesh), share * diagonal(mesh), {});
 }
 
 TEST(Mirror, AnAxisIsFoundExactly) {
-    const auto mirror = mirror_of(shapes::translated(casting(), {3, 1, -2}), 1e-3);
+    const auto mirror = mirror_of(shapes::translated(shapes::casting(), {3, 1, -2}), 1e-3);
     ASSERT_TRUE(mirror);
     EXPECT_EQ(mirror->normal, (Vec3{1, 0, 0}));
     EXPECT_NEAR(mirror->at, 3, 1e-6);
@@ -33,7 +26,7 @@ TEST(Mirror, IsFoundHoweverAShapeIsTurned) {
     Random random(5);
     for (int i = 0; i < 8; ++i) {
         const Similarity place = shapes::random_place(random, 3);
-        const TriangleMesh mesh = shapes::placed(casting(), place);
+        const TriangleMesh mesh = shapes::placed(shapes::casting(), place);
         const auto mirror = mirror_of(mesh, 1e-3);
         ASSERT_TRUE(mirror);
         EXPECT_LT(mirror->deviation, 1e-5 * diagonal(mesh));
@@ -50,7 +43,7 @@ TEST(Mirror, PlanesBetweenTheAxesAreFound) {
 }
 
 TEST(Mirror, WhatIsNotSymmetricDoesNotBendThePlane) {
-    TriangleMesh mesh = casting();
+    TriangleMesh mesh = shapes::casting();
     const double size = diagonal(mesh);
     double widest = 0;
     for (const Vec3& v : mesh.vertices) widest = std::max(widest, v.x);
