@@ -413,7 +413,7 @@ class Model:
 
         Where a face and the gradient at one of its vertices disagree by more than ``crease`` degrees there is a
         crease, or functions end there: the gradient just inside the face decides, then the face itself. Mesh parts
-        have no functions; theirs come from the faces around.
+        have no functions; theirs come from the faces around that agree with the corner's own.
 
         Parameters
         ----------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ _Vectors = NDArray[np.float64]
 #: enough to be off the crease whatever the mesh's rounding, near enough to see the surface at that corner.
 _STEP_INTO_FACE = 0.25
 
+#: With more faces round it a creased vertex is the tip of a fan, each of whose corners keeps its own face's normal.
+_MOST_AROUND = 64
+
 
 def corner_normals(gradient: Callable[[_Vectors], _Vectors], has_gradient: bool, mesh: Mesh, crease: float) -> _Vectors:
     """(m, 3, 3) normals by face and corner; see `pfgeom.Model.corner_normals`."""
@@ -23,8 +26,7 @@ def corner_normals(gradient: Callable[[_Vectors], _Vectors], has_gradient: bool,
     area_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     face_normals = _unit(area_normals)
     least = float(np.cos(np.radians(crease)))
-    normals = np.repeat(face_normals[:, None], 3, axis=1)
-    _take(normals, _unit(_around_vertices(len(vertices), faces, area_normals))[faces], face_normals, least)
+    normals = _smoothed(len(vertices), faces, area_normals, face_normals, least)
     if has_gradient:
         towards = _unit(gradient(vertices))[faces]
         agree = _take(normals, towards, face_normals, least)
@@ -45,13 +47,39 @@ def _take(normals: _Vectors, candidates: _Vectors, face_normals: _Vectors, least
     return agree
 
 
-def _around_vertices(count: int, faces: NDArray[np.int32], area_normals: _Vectors) -> _Vectors:
-    """Sums of the area normals of the faces round each vertex."""
-    sums = np.empty((count, 3))
-    weights = np.repeat(area_normals, 3, axis=0)
+def _smoothed(
+    count: int, faces: NDArray[np.int32], area_normals: _Vectors, face_normals: _Vectors, least: float
+) -> _Vectors:
+    """At each corner the mean of the faces round its vertex, weighted by area; where not all of them agree with it,
+    of those that agree with the corner's own face.
+    """
+    around = np.empty((count, 3))
     for axis in range(3):
-        sums[:, axis] = np.bincount(faces.reshape(-1), weights[:, axis], minlength=count)
-    return sums
+        around[:, axis] = np.bincount(faces.reshape(-1), np.repeat(area_normals[:, axis], 3), minlength=count)
+    normals = np.repeat(face_normals[:, None], 3, axis=1)
+    agree = _take(normals, _unit(around)[faces], face_normals, least)
+    creased = np.zeros(count, bool)
+    creased[faces[~agree]] = True
+    by_corner = normals.reshape(-1, 3)
+    for corners in _by_valence(creased, faces):
+        own, areas = face_normals[corners // 3], area_normals[corners // 3]
+        sums = np.zeros_like(own)
+        for k in range(corners.shape[1]):
+            same_side = np.einsum("vcx,vx->vc", own, own[:, k]) >= least
+            sums += same_side[..., None] * areas[:, k, None]
+        by_corner[corners] = np.where(own.any(axis=2, keepdims=True), _unit(sums), 0)
+    return normals
+
+
+def _by_valence(wanted: NDArray[np.bool_], faces: NDArray[np.int32]) -> Iterator[NDArray[np.intp]]:
+    """The corners, counted through the faces, round each of the wanted vertices: (v, c) for all with c of them."""
+    corners = np.flatnonzero(wanted[faces])
+    vertices = faces.reshape(-1)[corners]
+    corners = corners[np.argsort(vertices, kind="stable")]
+    sizes = np.bincount(vertices, minlength=len(wanted))[wanted]
+    starts = np.cumsum(sizes) - sizes
+    for size in range(1, min(_MOST_AROUND, int(sizes.max(initial=0))) + 1):
+        yield corners[starts[sizes == size][:, None] + np.arange(size)]
 
 
 def _unit(vectors: _Vectors) -> _Vectors:

@@ -6,6 +6,7 @@ import numpy as np
 import pfgeom
 import pytest
 import shapes
+from pfgeom.normals import corner_normals
 
 
 def degrees_between(a, b):
@@ -42,6 +43,29 @@ def test_creases_stay_sharp(gear_model):
 def test_mesh_parts_take_their_faces(soup_model):
     mesh = soup_model.to_mesh()
     assert degrees_between(soup_model.corner_normals(mesh), face_normals(mesh)[:, None]).max() < 1e-3
+
+
+def test_mesh_parts_keep_their_creases():
+    """A long box: at its corners the long sides outweigh the others, and must not pull their normals along."""
+    corners, faces = shapes.cube()
+    box = pfgeom.Mesh(corners * [1, 1, 5], faces.astype(np.int32))
+    normals = corner_normals(np.zeros_like, False, box, 30.0)
+    assert degrees_between(normals, face_normals(box)[:, None]).max() < 1e-3
+
+
+def test_mesh_parts_are_smooth_between_creases():
+    """A tin of 24 facets: round its side as a cylinder, its lids flat up to the rim."""
+    turn = 2 * np.pi * np.arange(24) / 24
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    points = np.concatenate([np.c_[ring, np.zeros(24)], np.c_[ring, np.ones(24)], [[0, 0, 0], [0, 0, 1]]])
+    here, there = np.arange(24), np.roll(np.arange(24), -1)
+    lids = [np.stack([np.full(24, 48), there, here], 1), np.stack([np.full(24, 49), here + 24, there + 24], 1)]
+    side = [np.stack([here, there, there + 24], 1), np.stack([here, there + 24, here + 24], 1)]
+    tin = pfgeom.Mesh(points, np.concatenate(lids + side).astype(np.int32))
+    normals = corner_normals(np.zeros_like, False, tin, 30.0)
+    radial = points[tin.faces] * [1, 1, 0]
+    assert degrees_between(normals[48:], radial[48:]).max() < 8  # the two triangles of a facet weigh as two
+    assert degrees_between(normals[:48], face_normals(tin)[:48, None]).max() < 1e-3
 
 
 def test_faces_that_look_inwards():

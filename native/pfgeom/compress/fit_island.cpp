@@ -9,13 +9,14 @@ namespace {
 // Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
 constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
-// Fewer faces than this are not worth a hierarchy.
-constexpr std::size_t kLeastFaces = 100;
+// Fewer faces than this are no ellipsoid; fewer than that are a tree or part of the common mesh.
+constexpr std::size_t kLeastFacesOfQuadric = 8, kLeastFacesAlone = 100;
 // The estimate is of flat faces; curved ones take down to half of it (thingi-1706459 at 1e-3: 826 bytes where
 // the estimate says 1,170 and its tree takes 1,124).
 constexpr std::size_t kSure = 2;
-// A tree of so few bytes is not compared: a mesh could save a dozen of them, at many times the work.
-constexpr std::size_t kFewBytes = 120;
+// A tree of so few bytes is not compared: a mesh could save a dozen of them, at many times the work; but it
+// is no work where the input has few faces.
+constexpr std::size_t kFewBytes = 120, kFewFaces = 400;
 // Nor are fewer than this worth a sheet, which takes some 40 bytes.
 constexpr std::size_t kLeastFacesOfSheet = 16;
 
@@ -33,7 +34,8 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
         return known ? *known : known.emplace(estimate_mesh(goal, task));
     };
     const auto surely_less = [&](std::size_t bytes) {
-        return bytes <= kFewBytes || kSure * bytes < estimate().least_mirrored();
+        return (bytes <= kFewBytes && goal.mesh.faces.size() > kFewFaces) ||
+               kSure * bytes < estimate().least_mirrored();
     };
     std::optional<Outcome> plain;
     const auto limit = [&](std::size_t bytes) {
@@ -42,6 +44,8 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
     };
     std::optional<Outcome> best = try_tree(goal, limit, task);
     if (best && surely_less(best->bytes) && !all) return best;
+    const bool alone = goal.mesh.faces.size() >= kLeastFacesAlone;
+    if (!best && !alone) return {};
     if (!plain) plain = try_mesh(goal, known, task);
     // Measured on igea and armadillo at a maximum of 1e-3: no hierarchy that holds beats the mesh part.
     // None has beaten a tree.
@@ -57,19 +61,21 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
     const auto limit = [&](std::size_t) { return estimate.likely; };
     std::optional<Outcome> best = try_tree(goal, limit, task);
+    const bool alone = goal.mesh.faces.size() >= kLeastFacesAlone;
+    if (!best && !alone) return {};
     const bool far_below = best && best->bytes < estimate.least_mirrored() && goal.effort != Effort::best;
     if (!far_below && goal.mesh.faces.size() <= kQuickMesh)
         take_cheaper(try_mesh(goal, estimate, task), best);
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
     // search of that starts too fine.
-    take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kNoLimit, task), best);
+    if (alone) take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kNoLimit, task), best);
     return best;
 }
 
 std::optional<Outcome> fit_closed(const Goal& goal, const Task& task) {
-    if (goal.mesh.faces.size() < 8) return {};
-    if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
-    if (goal.mesh.faces.size() < kLeastFaces) return {};
+    if (goal.mesh.faces.size() >= kLeastFacesOfQuadric) {
+        if (std::optional<Outcome> quadric = try_quadric(goal, task)) return quadric;
+    }
     return goal.metric == Metric::max ? fit_by_max(goal, task) : fit_by_rms(goal, task);
 }
 

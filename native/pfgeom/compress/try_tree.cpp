@@ -8,6 +8,7 @@
 #include "pfgeom/mesh/islands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <span>
@@ -134,6 +135,7 @@ class TreeSearch {
             std::vector<TreeCandidate> trees = mended(shares, share * certified, certified);
             if (trees.empty()) continue;
             const double least = least_bits(trees);
+            if (!std::isfinite(least)) break;
             std::erase_if(trees, [](const TreeCandidate& c) { return c.proved == 0; });
             const auto best =
                 std::ranges::min_element(trees, {}, [](const TreeCandidate& c) { return c.fit.bits; });
@@ -150,10 +152,10 @@ class TreeSearch {
         for (const Shares& shares : settings) {
             const TreeFitOptions options = options_for(shares, tolerance);
             fits.push_back({fit_set_tree(target_.mesh, target_.bvh, options, task_), options});
-            if (fits.back().fit.tree.nodes.empty()) return {};
+            if (fits.back().fit.regions.empty()) return {};
             if (fits.back().fit.mostly_whole()) break;  // no seams that want other shares
         }
-        mend(fits, certified);
+        if (std::isfinite(least_bits(fits))) mend(fits, certified);
         return fits;
     }
 
@@ -180,7 +182,9 @@ class TreeSearch {
         options.quantise_share = shares.quantise;
         options.tube_share = shares.tube;
         options.askew = shares.askew;
-        options.most_regions = std::clamp<std::size_t>(most_bytes_(0) / kBytesOfRegion, 1, kMostRegions);
+        const std::size_t most = most_bytes_(0);
+        options.most_regions = std::clamp<std::size_t>(most / kBytesOfRegion, 1, kMostRegions);
+        options.most_bits = 8.0 * static_cast<double>(most);
         options.exact = target_.exact;
         return options;
     }

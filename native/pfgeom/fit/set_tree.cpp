@@ -155,31 +155,41 @@ std::vector<RawTree> build_all(const TreeFit& fit, const std::vector<BuildOption
 
 // Each setting is the best of some mesh. A share of the samples tells which ones are worth a longer look at
 // all.
-std::vector<BuildOptions> scout(const TreeFit& fit, const Effort& effort, const Task& task) {
+std::vector<BuildOptions> scout(const TreeFit& fit, const Effort& effort, double most_bits,
+                                const Task& task) {
     constexpr std::size_t kScouted = 4;  // one in so many samples, which have no order
+    constexpr double kScoutedBits = 2;   // of fewer samples, but with less of a look ahead
     std::vector<BuildOptions> settings;
     for (const int power : effort.powers) {
         if (fit.mostly_whole()) break;
         for (const double weight : effort.single_weights) settings.push_back({power, weight});
     }
     for (const int power : effort.peeled_powers) settings.push_back({.power = power, .peel = true});
-    for (BuildOptions& setting : settings) setting.most_samples = fit.samples.size() / kScouted;
+    for (BuildOptions& setting : settings) {
+        setting.most_samples = fit.samples.size() / kScouted;
+        setting.most_bits = kScoutedBits * most_bits;
+    }
     const std::vector<RawTree> trees = build_all(fit, settings, task);
     std::vector<std::size_t> order(settings.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return price(trees[i]); });
     std::vector<BuildOptions> finalists;
     for (std::size_t k = 0; k < std::min(effort.finalists, order.size()); ++k) {
+        if (trees[order[k]].nodes.empty()) break;
         finalists.push_back(settings[order[k]]);
         finalists.back().tried = effort.tried;
         finalists.back().most_samples = BuildOptions{}.most_samples;
+        finalists.back().most_bits = most_bits;
     }
     return finalists;
 }
 
 void build(TreeFit& fit, const TreeFitOptions& options, const Task& task) {
-    const std::vector<BuildOptions> finalists = scout(fit, effort_of(options.effort), task);
+    fit.raw = {{}, std::numeric_limits<double>::infinity(), 0};
+    const std::vector<BuildOptions> finalists =
+        scout(fit, effort_of(options.effort), options.most_bits, task);
     std::vector<RawTree> trees = build_all(fit, finalists, task);
+    if (trees.empty()) return write_tree(fit);
     const auto best = static_cast<std::size_t>(std::ranges::min_element(trees, {}, price) - trees.begin());
     fit.build = finalists[best];
     fit.raw = std::move(trees[best]);

@@ -11,6 +11,7 @@
 #include "pfgeom/segment/exact_patches.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,10 +26,11 @@ struct TreeFitOptions {
     /// planes are paired first (SegmentOptions::outermost_first), and questions may ask separators
     /// (tree_seams.h).
     bool askew = false;
-    std::size_t most_regions = 1000;         ///< a shape with more is for another representation
-    int effort = 1;                          ///< 0 fast, 1 normal, 2 best
-    std::span<const ExactPatch> exact = {};  ///< the mesh's
-    std::vector<Spot> held;                  ///< around these, whole quadrics move by so much less
+    std::size_t most_regions = 1000;  ///< a shape with more is for another representation
+    double most_bits = std::numeric_limits<double>::infinity();  ///< and so is one whose tree takes so many
+    int effort = 1;                                              ///< 0 fast, 1 normal, 2 best
+    std::span<const ExactPatch> exact = {};                      ///< the mesh's
+    std::vector<Spot> held;  ///< around these, whole quadrics move by so much less
     std::uint64_t seed = 1;
 };
 
@@ -55,7 +57,7 @@ struct KnownSide {
 };
 
 /// `mesh` lies in the cube [-1,1]³, closed and oriented outwards; `bvh` is the mesh's. Nothing if the surface
-/// falls into too many regions.
+/// falls into too many regions; regions, and no nodes, if the tree takes too many bits.
 TreeFit fit_set_tree(const TriangleMesh& mesh, const Bvh& bvh, const TreeFitOptions& options,
                      const Task& task = {});
 

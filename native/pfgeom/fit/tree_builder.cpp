@@ -5,6 +5,7 @@
 #include "pfgeom/fit/tree_peel.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace pfgeom {
@@ -17,6 +18,7 @@ constexpr double kKnownBits = 4, kStrangeBits = 6.5;  // again, where it has a p
 constexpr double kForcedBits = 100;
 constexpr std::size_t kMostRegrown =
     64;  // nodes of a mended subtree that is tried afresh: a tenth fewer bytes
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr int kMostDepth = 100, kMostPeeled = 90;
 
 using Members = std::vector<std::int32_t>;
@@ -40,7 +42,8 @@ class Builder {
           asked_(quadrics.size(), 0) {}
 
     RawTree build(const Box& box) {
-        grow(all(), box, 0, &nodes_, options_.tried);
+        const double bits = grow(all(), box, 0, &nodes_, options_.tried, options_.most_bits);
+        if (bits >= options_.most_bits) return {{}, kNoLimit, 0};
         return finish();
     }
 
@@ -60,10 +63,10 @@ class Builder {
     }
 
     // Grows the tree of a cell, into `nodes` unless that is null. Returns its bits with the quadrics that it
-    // is the first to ask.
-    double grow(Members members, const Box& box, int depth, Nodes* nodes, int tried);
+    // is the first to ask; `most` or more, and no tree to speak of, as soon as they are sure to be so many.
+    double grow(Members members, const Box& box, int depth, Nodes* nodes, int tried, double most);
     double grow_sides(const Question& question, Members members, const Box& box, int depth, Nodes* nodes,
-                      int tried);
+                      int tried, double most);
     Question ask(std::int32_t quadric, bool here) const;
     std::int32_t peeled(const Members& members, int depth) const;
     bool separates(std::size_t q, const std::vector<char>& here) const;
@@ -191,7 +194,7 @@ std::pair<Members, Members> Builder::split(const Question& question, const Membe
 }
 
 double Builder::grow_sides(const Question& question, Members members, const Box& box, int depth, Nodes* nodes,
-                           int tried) {
+                           int tried, double most) {
     auto [high, low] = split(question, members);
     members = {};  // or each level of the tree would hold all samples
     const bool asks = question.node.kind == TreeNode::Kind::ask;
@@ -202,9 +205,11 @@ double Builder::grow_sides(const Question& question, Members members, const Box&
     const auto next = [&] { return nodes ? static_cast<std::int32_t>(nodes->size()) : 0; };
     const std::int32_t high_index = next();
     double bits = question.bits + (fresh ? quadrics_[q].bits : 0);
-    bits += grow(std::move(high), high_cell(question.node, box), depth + 1, nodes, tried);
+    if (bits < most)
+        bits += grow(std::move(high), high_cell(question.node, box), depth + 1, nodes, tried, most - bits);
     const std::int32_t low_index = next();
-    bits += grow(std::move(low), low_cell(question.node, box), depth + 1, nodes, tried);
+    if (bits < most)
+        bits += grow(std::move(low), low_cell(question.node, box), depth + 1, nodes, tried, most - bits);
     if (asks) asked_[q] = 0;
     if (nodes) {
         (*nodes)[me] = question.node;
@@ -219,11 +224,11 @@ const Question& Builder::cheapest(const std::vector<Question>& questions, const 
                                   const Box& box, int depth) {
     const std::vector<char> known = known_;
     const Question* best = nullptr;
-    double least = 0;
+    double least = kNoLimit;
     for (const Question& question : questions) {
-        const double bits = grow_sides(question, cell.seen(), box, depth, nullptr, 1);
+        const double bits = grow_sides(question, cell.seen(), box, depth, nullptr, 1, least);
         known_ = known;
-        if (best && bits >= least) continue;
+        if (bits >= least) continue;
         best = &question;
         least = bits;
     }
@@ -244,7 +249,7 @@ Question Builder::ask(std::int32_t quadric, bool here) const {
     return question;
 }
 
-double Builder::grow(Members members, const Box& box, int depth, Nodes* nodes, int tried) {
+double Builder::grow(Members members, const Box& box, int depth, Nodes* nodes, int tried, double most) {
     task_.check();
     if (nodes) nodes->emplace_back();
     const auto inside = static_cast<std::size_t>(std::ranges::count_if(
@@ -268,7 +273,7 @@ double Builder::grow(Members members, const Box& box, int depth, Nodes* nodes, i
         }
         question = best.size() > 1 ? cheapest(best, cell, box, depth) : best[0];
     }
-    return grow_sides(question, std::move(members), box, depth, nodes, tried);
+    return grow_sides(question, std::move(members), box, depth, nodes, tried, most);
 }
 
 // Copies a subtree, growing the leaves that a sample contradicts. True if there was one.
@@ -281,7 +286,7 @@ bool Builder::copy(const Nodes& old, std::int32_t index, Members members, const 
         if (right) {
             nodes_.push_back(node);
         } else {
-            grow(std::move(members), box, depth, &nodes_, options_.tried);
+            grow(std::move(members), box, depth, &nodes_, options_.tried, kNoLimit);
         }
         return !right;
     }
@@ -306,7 +311,7 @@ void Builder::regrow(std::size_t from, Members members, const Box& box, int dept
     nodes_.erase(begin, nodes_.end());
     const std::vector<char> known = known_;
     const int forced = forced_;
-    grow(std::move(members), box, depth, &nodes_, options_.tried);
+    grow(std::move(members), box, depth, &nodes_, options_.tried, kNoLimit);
     if (forced_ == forced && nodes_.size() - from < mended.size()) return;
     nodes_.resize(from);
     nodes_.insert(nodes_.end(), mended.begin(), mended.end());

@@ -53,9 +53,11 @@ struct BuildOptions {
     std::size_t most_tried = 64;  ///< unless it has more patches than this
     bool peel = false;            ///< questions with one answer (fit/tree_peel.h) come before all others
     std::size_t most_samples = std::numeric_limits<std::size_t>::max();  ///< the first ones
+    double most_bits = std::numeric_limits<double>::infinity();          ///< a tree of so many is given up
 };
 
-/// A tree whose questions count quadrics as the builder was given them.
+/// A tree whose questions count quadrics as the builder was given them. One that was given up has no nodes
+/// and infinitely many bits.
 struct RawTree {
     std::vector<TreeNode> nodes;  ///< as in SetTree, cuts derived
     double bits = 0;              ///< estimate, with the quadrics that are used

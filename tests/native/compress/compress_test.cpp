@@ -79,6 +79,19 @@ TEST(Compress, ASphereIsOneFunctionAndAFewBytes) {
     EXPECT_LT(c.bytes.size(), 80U);
 }
 
+TEST(Compress, ABoxIsATreeHoweverFewItsFaces) {
+    const Compressed c = compressed(shapes::cube(), 1e-2);
+    EXPECT_EQ(c.report.islands.at(0).candidate, "tree");
+    EXPECT_EQ(count_functions(c.model).mesh_part_faces, 0);
+    EXPECT_LT(c.bytes.size(), 40U);
+}
+
+// A polyhedron in a ball: its quadrics serve several sides each, and their tree would be endless.
+TEST(Compress, ABallOfFewFlatSidesIsAMesh) {
+    const Compressed c = compressed(shapes::sphere(2), 1e-3);
+    EXPECT_EQ(c.report.islands.at(0).candidate, "mesh");
+}
+
 TEST(Compress, SmoothFreeFormsBecomeAHierarchy) {
     const Compressed c = compressed(shapes::bumpy_sphere(4), 1e-3, Metric::rms);
     EXPECT_EQ(c.report.islands.at(0).candidate, "hierarchy");

@@ -106,6 +106,18 @@ TEST(TreeBuilder, ALongerLookIsNeverMuchWorse) {
               build_tree(table, kCutBall, kCube, {}, {}).bits);
 }
 
+TEST(TreeBuilder, GivesUpWhatTakesTooMuch) {
+    const SampleTable table(samples_of(5000, cut_ball), kCutBall, {});
+    const double bits = build_tree(table, kCutBall, kCube, {}, {}).bits;
+    BuildOptions options;
+    options.most_bits = bits + 1;
+    EXPECT_EQ(build_tree(table, kCutBall, kCube, options, {}).bits, bits);
+    options.most_bits = bits;
+    const RawTree none = build_tree(table, kCutBall, kCube, options, {});
+    EXPECT_TRUE(none.nodes.empty());
+    EXPECT_TRUE(std::isinf(none.bits));
+}
+
 TEST(TreeBuilder, RepairKeepsWhatIsRight) {
     const auto samples = samples_of(5000, cut_ball);
     const SampleTable table(samples, kCutBall, {});

@@ -117,6 +117,16 @@ TEST(SetTreeFit, LeavesWhatHasTooManyRegionsToOthers) {
     EXPECT_TRUE(fit_set_tree(mesh, Bvh(mesh), options).tree.nodes.empty());
 }
 
+TEST(SetTreeFit, LeavesWhatTakesTooManyBitsToOthers) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(3);
+    TreeFitOptions options = within(0.005, 0);
+    options.most_bits = 100;
+    const TreeFit fit = fit_set_tree(mesh, Bvh(mesh), options);
+    EXPECT_FALSE(fit.regions.empty());
+    EXPECT_TRUE(fit.tree.nodes.empty());
+    EXPECT_GE(fit.bits, options.most_bits);
+}
+
 TEST(SetTreeFit, CanBeCancelled) {
     const TriangleMesh mesh = shapes::sphere(3, 0.8);
     CancelToken token;
