@@ -113,7 +113,7 @@ check-warnings: check-tools $(stamp)/installed
 	cmake --build $(release) --parallel $(jobs)
 
 # Left out: what takes minutes here and sees no code that the others do not.
-too_slow := Simplify.(DoesNotDependOnThreads|RmsIsKept)|Manifold.Noise|Compress.(SmoothFreeForms|EveryEffort)|MirroredModel.(TakesFewer|CopiesOf)
+too_slow := Simplify.(DoesNotDependOnThreads|RmsIsKept)|Manifold.Noise|Compress.(SmoothFreeForms|EveryEffort)|MirroredModel.(TakesFewer|CopiesOf)|Sheet.AFreeFormWithHolesTakes
 check-sanitizers: check-tools
 	cmake --preset asan >/dev/null
 	cmake --build build/asan --parallel $(jobs)

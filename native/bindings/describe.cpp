@@ -5,7 +5,9 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <string>
 
 namespace py = pybind11;
@@ -17,8 +19,9 @@ namespace {
 py::dict describe_shape(const Solid& solid) {
     return py::dict("kind"_a = "solid", "nodes"_a = solid.nodes.size());
 }
-py::dict describe_shape(const Sheet&) {
-    return py::dict("kind"_a = "sheet");
+py::dict describe_shape(const Sheet& sheet) {
+    const auto planes = std::ranges::count_if(sheet.cut.nodes, std::not_fn(&MaterialNode::leaf));
+    return py::dict("kind"_a = "sheet", "cutting_planes"_a = planes);
 }
 py::dict describe_shape(const MeshPart& part) {
     return py::dict("kind"_a = part.curved() ? "patches" : "mesh", "vertices"_a = part.positions.size(),

@@ -603,7 +603,8 @@ class Model:
     @cached_property
     def objects(self) -> list[dict[str, Any]]:
         """One dict an object: ``kind`` (solid, sheet, mesh, patches, tree), ``cavity_of``, ``instances`` (in how many
-        places it lies), counts; of meshes and patches ``mirrored``, whether they are one half and its image: then
+        places it lies), counts; of sheets ``cutting_planes``, how many cut a free form's surface (0: a function trims
+        it); of meshes and patches ``mirrored``, whether they are one half and its image: then
         counts are of the half."""
         return self._core.objects()
 

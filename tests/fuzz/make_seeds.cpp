@@ -59,8 +59,9 @@ int main(int argc, char** argv) {
     for (std::uint64_t seed = 0; seed < 10; ++seed)
         write_model(folder, "combination" + std::to_string(seed), pfgeom::test::random_combination(seed));
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        write_model(folder, "mirrored" + std::to_string(seed),
-                    pfgeom::test::with_mirrored_part(pfgeom::test::random_model(seed), seed));
+        const pfgeom::Model model = pfgeom::test::random_model(seed);
+        write_model(folder, "mirrored" + std::to_string(seed), pfgeom::test::with_mirrored_part(model, seed));
+        write_model(folder, "cut" + std::to_string(seed), pfgeom::test::with_cut_sheet(model, seed));
     }
     for (int last_level = 2; last_level < 5; ++last_level) {
         pfgeom::Random random(static_cast<std::uint64_t>(last_level));

@@ -13,7 +13,7 @@ template <class Shape, class Visit>
 void for_each_function(Shape& shape, Visit visit) {
     if (auto* sheet = std::get_if<Sheet>(&shape)) {
         visit(sheet->surface);
-        visit(sheet->trim);
+        if (sheet->trim >= 0) visit(sheet->trim);
     }
     if (auto* solid = std::get_if<Solid>(&shape)) {
         for (SetNode& node : solid->nodes) {

@@ -19,8 +19,8 @@ namespace pfgeom {
 
 /// 0xF5 never occurs in UTF-8 and loses its top bit on a 7-bit line; CR LF changes in a text-mode transfer.
 constexpr std::array<std::uint8_t, 4> kMagic{0xF5, 'p', '\r', '\n'};
-/// Version 3 is that of files in which a mesh part is mirrored, 2 that of others in which an object has
-/// placements; all others are of version 1.
+/// Version 3 is that of files in which a mesh part is mirrored or a sheet is cut by a decision tree, 2 that
+/// of others in which an object has placements; all others are of version 1.
 constexpr std::uint8_t kFirstVersion = 1, kVersion = 3;
 
 enum class SectionId : std::uint32_t {

@@ -35,11 +35,12 @@ void code_model(CodecStream& stream, Model& model, StreamCost* cost) {
 
 int version_of(const Model& model) {
     const auto placed = [](const Object& object) { return !object.placements.empty(); };
-    const auto mirrored = [](const Object& object) {
+    const auto mirrored_or_cut = [](const Object& object) {
         const auto* part = std::get_if<MeshPart>(&object.shape);
-        return part != nullptr && part->mirror.has_value();
+        const auto* sheet = std::get_if<Sheet>(&object.shape);
+        return (part != nullptr && part->mirror) || (sheet != nullptr && !sheet->cut.nodes.empty());
     };
-    if (std::any_of(model.objects.begin(), model.objects.end(), mirrored)) return 3;
+    if (std::any_of(model.objects.begin(), model.objects.end(), mirrored_or_cut)) return 3;
     return std::any_of(model.objects.begin(), model.objects.end(), placed) ? 2 : 1;
 }
 

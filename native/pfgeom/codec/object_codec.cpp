@@ -1,5 +1,6 @@
 #include "pfgeom/codec/object_codec.h"
 
+#include "pfgeom/codec/material_tree_codec.h"
 #include "pfgeom/codec/mesh_part_codec.h"
 #include "pfgeom/codec/placement_codec.h"
 #include "pfgeom/codec/set_tree_codec.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint32_t kSolid = 0, kSheet = 1, kMeshPart = 2, kSetTree = 3;  // order of Object::shape
 // Mesh parts with bulges, with a mirror (from version 3 on), and with both.
 constexpr std::uint32_t kCurvedPart = 4, kMirroredPart = 5, kMirroredCurvedPart = 6;
+constexpr std::uint32_t kCutSheet = 7;  // by a decision tree; from version 3 on
 
 // Contexts of code_wide and code_numbers.
 constexpr std::uint32_t kFirstOffset = 256, kLaterOffset = 257;
@@ -30,6 +32,8 @@ std::int64_t nearest_offset(const Frame& before, int code, int axis) {
 }
 
 std::uint32_t code_of(const Object& object) {
+    const auto* sheet = std::get_if<Sheet>(&object.shape);
+    if (sheet != nullptr && !sheet->cut.nodes.empty()) return kCutSheet;
     const auto* part = std::get_if<MeshPart>(&object.shape);
     if (part == nullptr) return static_cast<std::uint32_t>(object.shape.index());
     if (part->mirror) return part->curved() ? kMirroredCurvedPart : kMirroredPart;
@@ -89,9 +93,9 @@ void ObjectCoder::code_frame(Frame& frame) {
 void ObjectCoder::code_shape(Object& object) {
     const std::uint32_t shape = stream_.mixer.code_uint(stream_.coder, code_of(object), kShapeKind);
     const bool mirrored = shape == kMirroredPart || shape == kMirroredCurvedPart;
-    if (mirrored) stream_.expect(stream_.version >= 3);
+    if (mirrored || shape == kCutSheet) stream_.expect(stream_.version >= 3);
     if (stream_.decoding()) {
-        if (shape == kSheet)
+        if (shape == kSheet || shape == kCutSheet)
             object.shape = Sheet{};
         else if (shape == kMeshPart || shape == kCurvedPart || mirrored)
             object.shape = MeshPart{};
@@ -109,7 +113,10 @@ void ObjectCoder::code_shape(Object& object) {
     if (auto* tree = std::get_if<SetTree>(&object.shape)) code_set_tree(stream_, tree_model_, *tree);
     if (auto* sheet = std::get_if<Sheet>(&object.shape)) {
         code_function_index(sheet->surface);
-        code_function_index(sheet->trim);
+        if (shape == kSheet)
+            code_function_index(sheet->trim);
+        else if (stream_.ok())
+            MaterialTreeCoder(stream_, 2).code(sheet->cut);
     }
 }
 

@@ -10,8 +10,11 @@ namespace {
 
 // Functions that an object names, in no particular order.
 std::vector<std::int32_t> functions_of(const Object& object) {
-    if (const auto* sheet = std::get_if<Sheet>(&object.shape)) return {sheet->surface, sheet->trim};
     std::vector<std::int32_t> used;
+    if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
+        used.push_back(sheet->surface);
+        if (sheet->trim >= 0) used.push_back(sheet->trim);
+    }
     if (const auto* solid = std::get_if<Solid>(&object.shape)) {
         for (const SetNode& node : solid->nodes) {
             if (node.kind == SetNode::Kind::function) used.push_back(node.a);

@@ -53,6 +53,8 @@ std::optional<Outcome> try_tree(const Goal& goal, const TreeLimit& most_bytes, c
 /// Base quadric + hierarchy of perturbations, for a closed island. Gives up when it needs more than
 /// `most_bytes`.
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
+/// The same for an island with borders: they are closed, and the function's surface is cut along them.
+std::optional<Outcome> try_open_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
 /// What the simplified and coded mesh would take with flat faces, at a small part of the work.
 struct MeshEstimate {
     std::size_t least = 0;   ///< hardly ever fewer bytes than this where the shape is made of quadrics

@@ -208,7 +208,7 @@ class Compressor {
                 if (node.kind == SetNode::Kind::function) node.a += offset;
             }
         }
-        if (sheet != nullptr) sheet->surface += offset, sheet->trim += offset;
+        if (sheet != nullptr) sheet->surface += offset, sheet->trim += sheet->trim >= 0 ? offset : 0;
         for (const Function& f : outcome.functions) model_.functions.push_back(f);
         model_.objects.push_back(std::move(object));
         islands_of_.emplace_back();

@@ -79,13 +79,25 @@ std::optional<Outcome> fit_closed(const Goal& goal, const Task& task) {
     return goal.metric == Metric::max ? fit_by_max(goal, task) : fit_by_rms(goal, task);
 }
 
+// Sheets of one quadric need no comparison. Of free forms a hierarchy has never beaten the mesh part by the
+// maximum, closed or not; by the rms the bunny takes 0.75 times as many bytes at 5e-4.
+std::optional<Outcome> fit_open(const Goal& goal, const Task& task) {
+    if (std::optional<Outcome> sheet = try_sheet(goal, task)) return sheet;
+    const std::size_t faces = goal.mesh.faces.size();
+    if (faces < kLeastFacesAlone || (goal.metric == Metric::max && goal.effort != Effort::best)) return {};
+    std::optional<Outcome> best;
+    if (faces <= kQuickMesh) take_cheaper(try_mesh(goal, {}, task), best);
+    take_cheaper(try_open_hierarchy(goal, best ? best->bytes : kNoLimit, task), best);
+    return best;
+}
+
 }  // namespace
 
 std::optional<Outcome> fit_island(const Island& island, const Goal& goal, const Task& task) {
     if (!island.oriented) return {};
     if (island.closed) return fit_closed(goal, task);
     if (!island.manifold || goal.mesh.faces.size() < kLeastFacesOfSheet) return {};
-    return try_sheet(goal, task);
+    return fit_open(goal, task);
 }
 
 }  // namespace pfgeom

@@ -5,6 +5,8 @@
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/nearest_quadric.h"
 #include "pfgeom/eval/solid_field.h"
+#include "pfgeom/mesh/islands.h"
+#include "pfgeom/mesh/weld.h"
 #include "pfgeom/polygonize/paint_faces.h"
 #include "pfgeom/polygonize/polygonize.h"
 
@@ -37,12 +39,70 @@ Fineness fineness_of(const ObjectsToMesh& all, const Object& object) {
     return {.chord = chord_of(object, all.diagonal), .length = all.cell_for(object)};
 }
 
-TriangleMesh mesh_of_sheet(const Model& model, const Sheet& sheet, const PolygonizeOptions& options,
+// Where the surface leaves the cube the polygonizer closes it with the cube's sides: they go.
+void remove_cube_sides(const ScalarField& field, double chord, TriangleMesh& mesh) {
+    std::vector<char> off(mesh.vertices.size());
+    for (std::size_t v = 0; v < off.size(); ++v) {
+        Vec3 gradient;
+        const double value = field.value_and_gradient(mesh.vertices[v], gradient);
+        off[v] = std::abs(value) > chord * norm(gradient) ? 1 : 0;
+    }
+    std::erase_if(mesh.faces, [&](const Triangle& face) {
+        return std::ranges::any_of(face,
+                                   [&](std::int32_t v) { return off[static_cast<std::size_t>(v)] != 0; });
+    });
+}
+
+// How far borders may be from where they are, so that faces do not become slivers, in chords of the default
+// mesh.
+constexpr double kCutSnap = 1.0 / 8;
+
+// Where planes meet beside a border specks may be left, of which a finer mesh sees more: they go over to what
+// is around them. Of the default mesh's chords: so large they are at most.
+constexpr double kSpeck = 8;
+
+void join_specks(const TriangleMesh& mesh, double largest, std::vector<std::int32_t>& parts) {
+    const std::vector<std::int32_t> first = first_of_piece(mesh, parts);
+    std::vector<Box> boxes(parts.size());
+    const auto box = [&](std::size_t f) -> Box& { return boxes[static_cast<std::size_t>(first[f])]; };
+    for (std::size_t f = 0; f < parts.size(); ++f) {
+        for (const std::int32_t v : mesh.faces[f]) box(f).grow(mesh.vertices[v]);
+    }
+    for (std::size_t f = 0; f < parts.size(); ++f) {
+        if (box(f).diagonal() < largest) parts[f] = parts[f] == Sheet::kKept ? Sheet::kCut : Sheet::kKept;
+    }
+}
+
+// The function's surface, without what the decision tree cuts away. Lengths in the cube's units.
+TriangleMesh mesh_of_cut_sheet(const Model& model, const Sheet& sheet, const PolygonizeOptions& options,
+                               double chord, const Task& task) {
+    const SolidField field(model, Solid{{{SetNode::Kind::function, sheet.surface}}});
+    TriangleMesh mesh = polygonize(field, options, task);
+    remove_cube_sides(field, chord, mesh);
+    const std::vector<const MaterialTree*> trees(mesh.faces.size(), &sheet.cut);
+    std::vector<std::int32_t> parts = paint_faces(mesh, Frame{}, trees, kCutSnap * chord, task);
+    join_specks(mesh, kSpeck * chord, parts);
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < parts.size(); ++f) {
+        if (parts[f] == Sheet::kKept) mesh.faces[kept++] = mesh.faces[f];
+    }
+    mesh.faces.resize(kept);
+    compact_vertices(mesh);
+    return mesh;
+}
+
+TriangleMesh mesh_of_sheet(const Model& model, const ObjectsToMesh& all, const Object& object,
                            const Task& task) {
+    const auto& sheet = std::get<Sheet>(object.shape);
+    const PolygonizeOptions options = polygonize_options(all, object);
+    if (sheet.trim < 0) {
+        const double chord = chord_of(object, all.diagonal) / object.frame.half();
+        return mesh_of_cut_sheet(model, sheet, options, chord, task);
+    }
     const Function& surface = model.functions[static_cast<std::size_t>(sheet.surface)];
     const Function& trim = model.functions[static_cast<std::size_t>(sheet.trim)];
     if (!surface.is_quadric() || !trim.is_quadric())
-        throw InvalidInput("sheets of functions with perturbations cannot be polygonized yet");
+        throw InvalidInput("a sheet that a function trims cannot be polygonized if it has perturbations");
     return polygonize_sheet(surface.base, trim.base, options, task);
 }
 
@@ -95,7 +155,7 @@ TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const O
         complement = tree->complement;
         mesh = polygonize(*tree, how, task);
     } else {
-        mesh = mesh_of_sheet(model, std::get<Sheet>(object.shape), how, task);
+        mesh = mesh_of_sheet(model, all, object, task);
     }
     for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
     if (complement || object.cavity_of >= 0) turn_faces(mesh);

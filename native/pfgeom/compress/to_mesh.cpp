@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace pfgeom {
 namespace {
@@ -124,8 +125,9 @@ FunctionCount count_functions(const Model& model) {
             (part->curved() ? count.patches : count.mesh_part_faces) +=
                 static_cast<std::int64_t>(part->faces.size());
         } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
-            surface[static_cast<std::size_t>(sheet->surface)] = used[static_cast<std::size_t>(sheet->trim)] =
-                1;
+            surface[static_cast<std::size_t>(sheet->surface)] = 1;
+            if (sheet->trim >= 0) used[static_cast<std::size_t>(sheet->trim)] = 1;
+            count.separators += std::ranges::count_if(sheet->cut.nodes, std::not_fn(&MaterialNode::leaf));
         } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
             count.surface += distinct_quadrics(*tree);
         } else if (const auto* solid = std::get_if<Solid>(&object.shape)) {

@@ -1,7 +1,7 @@
 // The search for the coarsest quantiser that holds the tolerance: fits are steered by the error at their own
 // samples, and every candidate is then proved on its bytes, which calibrates the next estimate.
 #include "pfgeom/base/reproducible.h"
-#include "pfgeom/compress/candidate.h"
+#include "pfgeom/compress/hierarchy_search.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/eval/derive.h"
 #include "pfgeom/fit/hierarchy.h"
@@ -47,10 +47,13 @@ class Secant {
 
 class Search {
   public:
-    Search(const Goal& goal, std::size_t most_bytes, const Task& task)
+    /// `closed`: the goal's mesh, or what closes it.
+    Search(const Goal& goal, const TriangleMesh& closed, const Finish& finish, std::size_t most_bytes,
+           const Task& task)
         : goal_(goal),
+          finish_(finish),
           task_(task),
-          target_(goal.mesh, sample_count(goal)),
+          target_(closed, sample_count(goal)),
           tolerance_(goal.tolerance / target_.frame.half()) {
         options_.most_bits = 8.0 * static_cast<double>(most_bytes);
         options_.last_thin = kLastThinLevel;
@@ -59,7 +62,10 @@ class Search {
         base_lambda_ *= std::clamp(goal.tolerance / (2e-4 * goal.diagonal), 0.5, 1.0);
     }
 
-    std::optional<Outcome> run() { return goal_.metric == Metric::rms ? search_rms() : search_max(); }
+    std::optional<Outcome> run() {
+        if (finish_ && target_.inside_out) return {};  // a sheet's faces cannot be turned
+        return goal_.metric == Metric::rms ? search_rms() : search_max();
+    }
 
   private:
     // Quantiser of level 7 in eighths of an octave below the cube's unit, as a real number: the integer part
@@ -133,11 +139,13 @@ class Search {
         outcome.object.frame = target_.frame;
         outcome.object.shape = single_function(goal_.inward);
         outcome.object.mesh_code = mesh_code_for(goal_, chord);
+        if (finish_) finish_(outcome);
         prove(goal_, outcome, task_);
         return outcome;
     }
 
     const Goal& goal_;
+    const Finish& finish_;
     const Task& task_;
     FitTarget target_;
     double tolerance_;  // in the cube's units
@@ -147,8 +155,13 @@ class Search {
 
 }  // namespace
 
+std::optional<Outcome> search_hierarchy(const Goal& goal, const TriangleMesh& closed, const Finish& finish,
+                                        std::size_t most_bytes, const Task& task) {
+    return Search(goal, closed, finish, most_bytes, task).run();
+}
+
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task) {
-    return Search(goal, most_bytes, task).run();
+    return search_hierarchy(goal, goal.mesh, {}, most_bytes, task);
 }
 
 }  // namespace pfgeom

@@ -25,7 +25,7 @@ std::optional<Outcome> try_sheet(const Goal& goal, const Task& task) {
         outcome.functions[0].base = fit->surface;
         outcome.functions[1].base = fit->trim;
         outcome.object.frame = target.frame;
-        outcome.object.shape = Sheet{0, 1};
+        outcome.object.shape = Sheet{0, 1, {}};
         outcome.object.mesh_code = mesh_code_for(goal, chord * goal.tolerance);
         prove(goal, outcome, task);
         if (outcome.holds) return outcome;

@@ -5,6 +5,7 @@
 #include "pfgeom/eval/solid_field.h"
 #include "pfgeom/eval/tree_field.h"
 #include "pfgeom/function/moved_box.h"
+#include "pfgeom/function/trim.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,16 @@ namespace pfgeom {
 namespace {
 
 // A sheet as the solid that is empty around it: min(-|surface|, trim), which is zero on the sheet alone.
-Solid nothing_but(const Sheet& sheet) {
+std::unique_ptr<ScalarField> nothing_but(const Model& model, const Sheet& sheet) {
     using Kind = SetNode::Kind;
-    return {{{Kind::function, sheet.surface},
-             {Kind::complement, 0},
-             {Kind::intersect, 0, 1},
-             {Kind::function, sheet.trim},
-             {Kind::intersect, 2, 3}}};
+    const Trim trim = trim_of(model, sheet);
+    Model alone;
+    alone.functions = {model.functions[static_cast<std::size_t>(sheet.surface)]};
+    alone.functions.insert(alone.functions.end(), trim.functions.begin(), trim.functions.end());
+    Solid solid{{{Kind::function, 0}, {Kind::complement, 0}, {Kind::intersect, 0, 1}}};
+    append_trim(trim, 1, solid.nodes);
+    solid.nodes.push_back({Kind::intersect, 2, static_cast<std::int32_t>(solid.nodes.size()) - 1});
+    return std::make_unique<SolidField>(alone, solid);
 }
 
 using Kind = CombinationStep::Kind;
@@ -44,7 +48,7 @@ struct ModelField::Part {
         if (const auto* s = std::get_if<Solid>(&object.shape)) {
             solid = std::make_unique<SolidField>(model, without_outer_complement(*s));
         } else if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
-            solid = std::make_unique<SolidField>(model, nothing_but(*sheet));
+            solid = nothing_but(model, *sheet);
         } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
             solid = std::make_unique<TreeField>(*tree);
             box = {frame.to_world(tree->box().lo), frame.to_world(tree->box().hi)};

@@ -22,12 +22,11 @@ class Grower {
 
     MaterialTree run() {
         MaterialCell all;
-        all.box = root_cell();
+        all.box = options_.cell;
         for (std::uint32_t i = 0; i < samples_.size(); ++i) all.samples.push_back(i);
         for (std::uint32_t i = 0; i < borders_.size(); ++i) all.borders.push_back(i);
         grow(std::move(all), 0);
-        join_leaves(0);
-        return in_order();
+        return without_idle_questions(tree_);
     }
 
   private:
@@ -112,38 +111,6 @@ class Grower {
         return {std::move(high), std::move(low)};
     }
 
-    // A question whose answers are one material is none.
-    void join_leaves(std::int32_t row) {
-        MaterialNode& node = tree_.nodes[static_cast<std::size_t>(row)];
-        if (node.leaf()) return;
-        join_leaves(node.high);
-        join_leaves(node.low);
-        const MaterialNode &high = tree_.nodes[static_cast<std::size_t>(node.high)],
-                           &low = tree_.nodes[static_cast<std::size_t>(node.low)];
-        if (!high.leaf() || !low.leaf() || high.material != low.material) return;
-        MaterialNode leaf;
-        leaf.material = high.material;
-        node = leaf;
-    }
-
-    MaterialTree in_order() const {
-        MaterialTree ordered;
-        copy(0, ordered);
-        return ordered;
-    }
-
-    std::int32_t copy(std::int32_t row, MaterialTree& to) const {
-        MaterialNode node = tree_.nodes[static_cast<std::size_t>(row)];
-        const std::size_t at = to.nodes.size();
-        to.nodes.emplace_back();
-        if (!node.leaf()) {
-            node.high = copy(node.high, to);
-            node.low = copy(node.low, to);
-        }
-        to.nodes[at] = node;
-        return static_cast<std::int32_t>(at);
-    }
-
     std::span<const MaterialSample> samples_;
     std::span<const BorderPiece> borders_;
     const MaterialFit& options_;
@@ -151,7 +118,33 @@ class Grower {
     MaterialTree tree_;
 };
 
+// Copies what is below the row, depth first, and joins leaves. Recursion as deep as the tree.
+std::int32_t copy_joined(const MaterialTree& from, std::int32_t row, MaterialTree& to) {
+    MaterialNode node = from.nodes[static_cast<std::size_t>(row)];
+    const std::size_t at = to.nodes.size();
+    to.nodes.emplace_back();
+    if (!node.leaf()) {
+        node.high = copy_joined(from, node.high, to);
+        node.low = copy_joined(from, node.low, to);
+        const MaterialNode &high = to.nodes[static_cast<std::size_t>(node.high)],
+                           &low = to.nodes[static_cast<std::size_t>(node.low)];
+        if (high.leaf() && low.leaf() && high.material == low.material) {
+            node = {};
+            node.material = high.material;
+            to.nodes.resize(at + 1);
+        }
+    }
+    to.nodes[at] = node;
+    return static_cast<std::int32_t>(at);
+}
+
 }  // namespace
+
+MaterialTree without_idle_questions(const MaterialTree& tree) {
+    MaterialTree joined;
+    copy_joined(tree, 0, joined);
+    return joined;
+}
 
 MaterialTree fit_material_tree(std::span<const MaterialSample> samples, std::span<const BorderPiece> borders,
                                const MaterialFit& options, const Task& task) {

@@ -30,10 +30,14 @@ struct BorderPiece {
 struct MaterialFit {
     double least = 1e-3;      ///< what is smaller than this does not matter, in the cube's units
     double plane_weight = 8;  ///< in bits: how much a question may take for what it settles
+    Box cell = root_cell();   ///< that the tree is of
 };
 
 /// Greedy: the question that settles most for its bits, until all that the leaves' samples allow is there.
 MaterialTree fit_material_tree(std::span<const MaterialSample> samples, std::span<const BorderPiece> borders,
                                const MaterialFit& options, const Task& task);
+
+/// Its nodes in order, without questions whose answers are one material.
+MaterialTree without_idle_questions(const MaterialTree& tree);
 
 }  // namespace pfgeom

@@ -90,8 +90,9 @@ Flaw flaw_of(const Solid& solid, const Model& model) {
 
 Flaw flaw_of(const Sheet& sheet, const Model& model) {
     const std::size_t n = model.functions.size();
-    return in_range(sheet.surface, n) && in_range(sheet.trim, n) ? Flaw{}
-                                                                 : "its surface or trim does not exist";
+    if (!in_range(sheet.surface, n)) return "its surface does not exist";
+    if (sheet.cut.nodes.empty()) return in_range(sheet.trim, n) ? Flaw{} : "its trim does not exist";
+    return sheet.trim == -1 ? find_flaw(sheet.cut, 2) : "it has two trims";
 }
 
 Flaw flaw_of_mirror(const MeshPart& part) {

@@ -16,7 +16,9 @@ std::string find_flaw(const Model& model, const Limits& limits = {});
 /// twice on a path, every integer within its range (function/set_tree_check.cpp).
 std::string find_flaw(const SetTree& tree);
 
-/// The same for the materials alone (function/material_check.cpp).
+/// The same for a decision tree with that many materials, and for a model's materials alone
+/// (function/material_check.cpp).
+std::string find_flaw(const MaterialTree& tree, std::size_t materials);
 std::string find_flaw_of_materials(const Model& model, const Limits& limits = {});
 
 /// Of a promise, and of the diagonal that stands beside it.

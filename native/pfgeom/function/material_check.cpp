@@ -24,8 +24,22 @@ Flaw flaw_of(const MaterialNode& node, std::size_t materials) {
     return {};
 }
 
+Flaw flaw_of(const Paint& paint, const Object& object, std::size_t materials) {
+    const auto* tree = std::get_if<SetTree>(&object.shape);
+    if (paint.by_quadric && (tree == nullptr || tree->quadrics.empty()))
+        return "there are no quadrics to paint by";
+    if (paint.trees.size() != (paint.by_quadric ? tree->quadrics.size() : 1))
+        return "there are too few or too many trees";
+    for (const MaterialTree& t : paint.trees) {
+        if (Flaw flaw = find_flaw(t, materials); !flaw.empty()) return flaw;
+    }
+    return {};
+}
+
+}  // namespace
+
 // Walks depth first, the high child first: the rows must come in that order.
-Flaw flaw_of(const MaterialTree& tree, std::size_t materials) {
+std::string find_flaw(const MaterialTree& tree, std::size_t materials) {
     std::vector<std::pair<std::int32_t, int>> open{{0, 0}};  // row, depth
     for (std::size_t row = 0; row < tree.nodes.size(); ++row) {
         if (open.empty() || open.back().first != static_cast<std::int32_t>(row))
@@ -41,20 +55,6 @@ Flaw flaw_of(const MaterialTree& tree, std::size_t materials) {
     }
     return tree.nodes.empty() || !open.empty() ? "nodes are missing" : "";
 }
-
-Flaw flaw_of(const Paint& paint, const Object& object, std::size_t materials) {
-    const auto* tree = std::get_if<SetTree>(&object.shape);
-    if (paint.by_quadric && (tree == nullptr || tree->quadrics.empty()))
-        return "there are no quadrics to paint by";
-    if (paint.trees.size() != (paint.by_quadric ? tree->quadrics.size() : 1))
-        return "there are too few or too many trees";
-    for (const MaterialTree& t : paint.trees) {
-        if (Flaw flaw = flaw_of(t, materials); !flaw.empty()) return flaw;
-    }
-    return {};
-}
-
-}  // namespace
 
 std::string find_flaw_of_materials(const Model& model, const Limits& limits) {
     const MaterialMap& map = model.materials;

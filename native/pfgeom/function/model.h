@@ -99,9 +99,12 @@ struct Solid {
     friend bool operator==(const Solid&, const Solid&) = default;
 };
 
-/// An open surface: the zero set of one function where another one, the trim, is >= 0.
+/// An open surface: the zero set of one function where another one, the trim, is >= 0; or, of a free form,
+/// where a decision tree of planes keeps it (its leaves are kKept and kCut).
 struct Sheet {
+    static constexpr std::int32_t kKept = 0, kCut = 1;
     std::int32_t surface = -1, trim = -1;
+    MaterialTree cut = {};  ///< if there is no trim
 
     friend bool operator==(const Sheet&, const Sheet&) = default;
 };

@@ -124,4 +124,17 @@ std::vector<std::vector<std::int32_t>> find_pieces(const TriangleMesh& mesh) {
     return pieces;
 }
 
+std::vector<std::int32_t> first_of_piece(const TriangleMesh& mesh, std::span<const std::int32_t> labels) {
+    const auto label = [&](std::int32_t face) { return labels[static_cast<std::size_t>(face)]; };
+    UnionFind joined(mesh.faces.size());
+    EdgeTable(mesh.faces, mesh.vertices.size()).for_each([&](std::span<const EdgeUse> uses) {
+        for (const EdgeUse& use : uses.subspan(1)) {
+            if (label(use.face()) == label(uses[0].face())) joined.join(uses[0].face(), use.face());
+        }
+    });
+    std::vector<std::int32_t> first(mesh.faces.size());
+    for (std::size_t f = 0; f < first.size(); ++f) first[f] = joined.find(static_cast<std::int32_t>(f));
+    return first;
+}
+
 }  // namespace pfgeom

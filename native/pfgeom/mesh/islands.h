@@ -4,6 +4,7 @@
 #include "pfgeom/mesh/prepare.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pfgeom {
@@ -14,6 +15,9 @@ std::vector<Island> find_islands(const TriangleMesh& mesh, MeshDefects& defects,
 
 /// The vertices that hang together by faces, the largest set first.
 std::vector<std::vector<std::int32_t>> find_pieces(const TriangleMesh& mesh);
+
+/// For each face the first of those with its label that it hangs together with by edges.
+std::vector<std::int32_t> first_of_piece(const TriangleMesh& mesh, std::span<const std::int32_t> labels);
 
 /// Sets `parent` of each closed and oriented island.
 void find_parents(PreparedMesh& prepared, const Task& task);

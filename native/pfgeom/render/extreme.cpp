@@ -222,13 +222,8 @@ Vec3 ExtremeSearch::step_onto(std::int32_t leaf, const Condition& condition, con
 
 bool ExtremeSearch::belongs(std::int32_t leaf, const SignRegion& region, const Vec3& point) const {
     if (side_ != Side::sheet) return cells_->is_inside(leaf, point) == (side_ == Side::inside);
-    for (std::size_t i = 0; i < region.count; ++i) {
-        const Expansion e = cells_->expand(leaf, region.conditions[i].function, point);
-        const double off = e.value / norm(e.gradient);
-        if (region.conditions[i].sense == Sense::zero ? !(std::abs(off) <= kBehind) : !(off >= -kBehind))
-            return false;
-    }
-    return true;
+    const Expansion e = cells_->expand(leaf, region.conditions[0].function, point);
+    return std::abs(e.value) <= kBehind * norm(e.gradient) && cells_->is_inside(leaf, point);
 }
 
 // A point of the other side is an upper bound, and on the way to it there is surface: nearly always at once.

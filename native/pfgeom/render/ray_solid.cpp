@@ -32,6 +32,16 @@ std::int32_t& function_of(SetNode& node) {
     return node.kind == Kind::function ? node.a : node.f;
 }
 
+// Of a sheet, whose surface is the first function: not on its inner side, but on it.
+SignRegion on_surface(const SignRegion& region) {
+    SignRegion on;
+    on.add({0, Sense::zero});
+    for (std::size_t i = 0; i < region.count; ++i) {
+        if (region.conditions[i].function != 0) on.add(region.conditions[i]);
+    }
+    return on;
+}
+
 }  // namespace
 
 RaySolid::RaySolid(const Model& model, const Solid& solid, const Frame& frame, const Task& task)
@@ -45,10 +55,7 @@ RaySolid::RaySolid(const Model& model, const Solid& solid, const Frame& frame, c
 RaySolid::RaySolid(const Model& model, const Sheet& sheet, const Frame& frame, const Task& task)
     : place_(frame), open_(true) {
     nodes_ = {{Kind::function, add(model, sheet.surface), -1, -1}};
-    if (sheet.trim != sheet.surface) {
-        nodes_.push_back({Kind::function, add(model, sheet.trim), -1, -1});
-        nodes_.push_back({Kind::intersect, 0, 1, -1});
-    }
+    if (sheet.trim != sheet.surface) add_trim(trim_of(model, sheet));
     make(task);
 }
 
@@ -58,6 +65,16 @@ std::int32_t RaySolid::add(const Model& model, std::int32_t function) {
     rows_.push_back(function);
     functions_.emplace_back(model.functions[static_cast<std::size_t>(function)]);
     return static_cast<std::int32_t>(rows_.size()) - 1;
+}
+
+// Its functions are nobody's surface: no hit names them.
+void RaySolid::add_trim(const Trim& trim) {
+    append_trim(trim, 1, nodes_);
+    nodes_.push_back({Kind::intersect, 0, static_cast<std::int32_t>(nodes_.size()) - 1});
+    for (const Function& f : trim.functions) {
+        rows_.push_back(-1);
+        functions_.emplace_back(f);
+    }
 }
 
 SolidLeaf RaySolid::whole() const {
@@ -162,10 +179,8 @@ Extreme RaySolid::extreme(const SearchGoal& goal, double within, double accuracy
 void RaySolid::regions(std::int32_t leaf, Side side, std::vector<SignRegion>& regions) const {
     const SolidLeaf& left = leaves_[static_cast<std::size_t>(leaf)];
     if (side == Side::sheet) {
-        SignRegion sheet;
-        sheet.add({0, Sense::zero});
-        if (left.live.size() > 1) sheet.add({1, Sense::positive});
-        regions.assign(1, sheet);
+        regions_of(left.nodes, true, regions);
+        for (SignRegion& region : regions) region = on_surface(region);
     } else {
         regions_of(left.nodes, side == Side::inside, regions);
     }
@@ -188,6 +203,7 @@ bool RaySolid::is_inside(std::int32_t leaf, const Vec3& p) const {
         const FunctionTerms& terms = functions_[static_cast<std::size_t>(live.function)];
         signs.push_back(terms.value(p, live.in_cell.live) >= 0 ? 1 : 0);
     }
+    if (open_) signs[0] = 1;
     return pfgeom::is_inside(left.nodes, signs, scratch);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pfgeom/base/task.h"
+#include "pfgeom/function/trim.h"
 #include "pfgeom/render/local_ray.h"
 #include "pfgeom/render/ray_octree.h"
 #include "pfgeom/render/ray_target.h"
@@ -26,6 +27,7 @@ class RaySolid final : public RayTarget, private SurfaceCells {
 
   private:
     std::int32_t add(const Model& model, std::int32_t function);
+    void add_trim(const Trim& trim);
     SolidLeaf whole() const;
     Box box() const;
     SolidLeaf in_cell(const SolidLeaf& parent, const Box& cell) const;
@@ -38,10 +40,10 @@ class RaySolid final : public RayTarget, private SurfaceCells {
     SurfaceHit with_normal(SurfaceHit hit, const Ray& ray, std::int32_t leaf) const;
 
     CubePlace place_;
-    bool open_ = false;           // a sheet: leaves hold the surface and the trim
+    bool open_ = false;           // a sheet: the surface is the first function, of leaves too
     std::vector<SetNode> nodes_;  // `function` and `decide` name rows of functions_
     std::vector<FunctionTerms> functions_;
-    std::vector<std::int32_t> rows_;  // of functions_: rows of Model::functions
+    std::vector<std::int32_t> rows_;  // of functions_: rows of Model::functions; -1: a trim's
     RayOctree octree_;
     std::vector<SolidLeaf> leaves_;
 };

@@ -58,8 +58,10 @@ LeafAnswer LeafRay::ask_alone(const RaySpan& span) const {
 
 LeafAnswer LeafRay::ask_sheet(const RaySpan& span) const {
     LeafAnswer answer;
+    std::vector<std::uint8_t> signs(leaf_.live.size(), 1), scratch;
     search(0, span, [&](double t) {
-        if (leaf_.live.size() > 1 && value(1, t) < 0) return false;
+        for (std::size_t i = 1; i < signs.size(); ++i) signs[i] = value(i, t) >= 0 ? 1 : 0;
+        if (!is_inside(leaf_.nodes, signs, scratch)) return false;
         answer.hit.t = t;
         answer.hit.function = leaf_.live[0].function;
         return true;

@@ -29,7 +29,7 @@ class LeafRay {
         : functions_(functions), leaf_(leaf), ray_(ray), squared_speed_(squared_norm(ray.direction)) {}
 
     LeafAnswer ask_solid(const RaySpan& span) const;
-    /// The surface is the first live function; the trim the second, or it is positive throughout.
+    /// The surface is the first live function: the ray meets it where the leaf would be inside with it.
     LeafAnswer ask_sheet(const RaySpan& span) const;
 
   private:

@@ -22,7 +22,7 @@ class SurfaceCells {
     virtual void regions(std::int32_t leaf, Side side, std::vector<SignRegion>& regions) const = 0;
     /// Of a function of the leaf, around a point of its cell.
     virtual Expansion expand(std::int32_t leaf, std::int32_t function, const Vec3& at) const = 0;
-    /// Is this point of the cell inside?
+    /// Is this point of the cell inside? Of an open surface: would it be of it, if it lay on it?
     virtual bool is_inside(std::int32_t leaf, const Vec3& p) const = 0;
 };
 

@@ -101,7 +101,7 @@ class FunctionLister {
             if (const auto* solid = std::get_if<Solid>(&object.shape)) add(*solid, place);
             if (const auto* sheet = std::get_if<Sheet>(&object.shape)) {
                 add(sheet->surface, true, place);
-                add(sheet->trim, false, place);
+                if (sheet->trim >= 0) add(sheet->trim, false, place);
             }
         }
         return std::move(list_);

@@ -119,7 +119,7 @@ TEST(Algebra, AnOperandThatIsMetAgainIsKeptOnce) {
 
 TEST(Algebra, OpenSurfacesAreRefusedByNumber) {
     Model sheet = ball();
-    sheet.objects[0].shape = Sheet{0, 0};
+    sheet.objects[0].shape = Sheet{0, 0, {}};
     Model open = test::mesh_ball();
     std::get<MeshPart>(open.objects[0].shape).faces.pop_back();
     for (const Model& bad : {sheet, open}) {

@@ -41,6 +41,7 @@ void expect_equal(const Solid& a, const Solid& b) {
 void expect_equal(const Sheet& a, const Sheet& b) {
     EXPECT_EQ(a.surface, b.surface);
     EXPECT_EQ(a.trim, b.trim);
+    EXPECT_EQ(a.cut, b.cut);
 }
 void expect_equal(const MeshPart& a, const MeshPart& b) {
     const MeshPart in_order = canonical(a);
@@ -118,13 +119,30 @@ TEST(Codec, MirroredPartsComeBackAsTheyWere) {
     }
 }
 
+TEST(Codec, CutSheetsComeBackAsTheyWere) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const Model model = test::with_cut_sheet(random_model(seed), seed);
+        const std::vector<std::uint8_t> bytes = encode(model);
+        EXPECT_EQ(bytes[4], 3) << "version";
+        const Model back = decoded(bytes);
+        ASSERT_EQ(model.objects.size(), back.objects.size());
+        for (std::size_t i = 0; i < model.objects.size(); ++i)
+            expect_equal(model.objects[i], back.objects[i]);
+        EXPECT_EQ(encode(back), bytes);
+        ASSERT_FALSE(HasFailure()) << "seed " << seed;
+    }
+}
+
 // Older readers know no such shapes, so that a file of an older version has none.
-TEST(Codec, MirroredPartsAreOfVersionThreeAndNoOther) {
-    const std::vector<std::uint8_t> mirrored = encode(test::with_mirrored_part(test::ball(), 1));
-    const Envelope envelope = *open_envelope(mirrored, {});
-    EXPECT_TRUE(decode(seal_envelope(envelope.stream, {}, 3)));
-    for (const int version : {1, 2})
-        EXPECT_FALSE(decode(seal_envelope(envelope.stream, {}, static_cast<std::uint8_t>(version))));
+TEST(Codec, MirroredPartsAndCutSheetsAreOfVersionThreeAndNoOther) {
+    for (const Model& model :
+         {test::with_mirrored_part(test::ball(), 1), test::with_cut_sheet(test::ball(), 1)}) {
+        const std::vector<std::uint8_t> bytes = encode(model);
+        const Envelope envelope = *open_envelope(bytes, {});
+        EXPECT_TRUE(decode(seal_envelope(envelope.stream, {}, 3)));
+        for (const int version : {1, 2})
+            EXPECT_FALSE(decode(seal_envelope(envelope.stream, {}, static_cast<std::uint8_t>(version))));
+    }
     CodecStream stream(3);
     Model plain = test::ball();
     code_model(stream, plain);
@@ -287,9 +305,10 @@ TEST(Codec, SizesAddUp) {
     model.functions.push_back(test::random_function(random));
     model.objects.resize(3, model.objects[0]);
     model.objects[1].shape = test::random_mesh_part(random);
-    model.objects[2].shape = Sheet{1, 0};
+    model.objects[2].shape = Sheet{1, 0, {}};
+    model = test::with_cut_sheet(std::move(model), 42);
     const SizeReport report = measure_size(model);
-    ASSERT_EQ(report.bytes_of_object.size(), 3U);
+    ASSERT_EQ(report.bytes_of_object.size(), 4U);
     double sum = static_cast<double>(report.head), levels = 0;
     for (const double bytes : report.bytes_of_object) {
         EXPECT_GT(bytes, 0);

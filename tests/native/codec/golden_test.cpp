@@ -83,7 +83,7 @@ std::map<std::string, Model> placed_models() {
     return models;
 }
 
-// Those of version 3: a mirrored mesh part beside each of the others.
+// Those of version 3: a mirrored mesh part beside each of the others, or a sheet that is cut.
 std::map<std::string, Model> mirrored_models() {
     std::map<std::string, Model> models;
     for (const auto& [name, model] : golden_models()) {
@@ -91,6 +91,8 @@ std::map<std::string, Model> mirrored_models() {
     }
     models["painted"] = test::painted(models["tree"], 7);
     models["placed"] = test::with_placements(models["curved"], 8);
+    for (std::uint64_t seed = 0; seed < 3; ++seed)
+        models["cut" + std::to_string(seed)] = test::with_cut_sheet(test::random_model(seed), seed);
     return models;
 }
 

@@ -47,7 +47,10 @@ class ModelHash {
     }
     void add(const SetNode& n) { add(static_cast<std::uint8_t>(n.kind)), add(n.a), add(n.b), add(n.f); }
     void add(const Solid& s) { add(s.nodes); }
-    void add(const Sheet& s) { add(s.surface), add(s.trim); }
+    void add(const Sheet& s) {
+        add(s.surface), add(s.trim);
+        if (!s.cut.nodes.empty()) add(s.cut);
+    }
     void add(const Bulge& b) { add(b.normal), add(b.sideways); }
     void add(const MeshPart& m) {
         add(m.step_code), add(m.positions), add(m.faces);

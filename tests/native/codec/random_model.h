@@ -170,7 +170,7 @@ inline Object random_object(Random& random, int index, int functions) {
     object.frame = random_frame(random);
     const int shape = below(random, 4);
     if (shape == 0) object.shape = random_solid(random, functions);
-    if (shape == 1) object.shape = Sheet{below(random, functions), below(random, functions)};
+    if (shape == 1) object.shape = Sheet{below(random, functions), below(random, functions), {}};
     if (shape == 2) object.shape = random_mesh_part(random);
     if (shape == 3) object.shape = random_tree(random, 5);
     if (index > 0 && below(random, 3) == 0) object.cavity_of = below(random, index);
@@ -235,7 +235,6 @@ inline Model with_placements(Model model, std::uint64_t seed) {
     return model;
 }
 
-/// One solid of one ball: the smallest file.
 inline void grow_material_tree(Random& random, const Box& cell, int depth, int materials,
                                MaterialTree& tree) {
     MaterialNode node;
@@ -283,6 +282,7 @@ inline Model painted(Model model, std::uint64_t seed) {
     return model;
 }
 
+/// One solid of one ball: the smallest file.
 inline Model ball() {
     Model model;
     model.diagonal = 2;
@@ -303,6 +303,19 @@ inline Model with_mirrored_part(Model model, std::uint64_t seed) {
     object.shape = below(random, 2) == 0 ? part : with_random_bulges(part, random);
     model.objects.push_back(std::move(object));
     if (model.names.size() > 1) model.names.emplace_back("M");
+    return model;
+}
+
+/// The model and one object more, a sheet that a decision tree cuts.
+inline Model with_cut_sheet(Model model, std::uint64_t seed) {
+    Random random(seed);
+    Object object;
+    object.frame = random_frame(random);
+    Sheet sheet{below(random, static_cast<int>(model.functions.size())), -1, {}};
+    grow_material_tree(random, root_cell(), 1 + below(random, 6), 2, sheet.cut);
+    object.shape = std::move(sheet);
+    model.objects.push_back(std::move(object));
+    if (model.names.size() > 1) model.names.emplace_back("S");
     return model;
 }
 

@@ -1,9 +1,13 @@
 // Open islands of one quadric: its zero set, cut by another one's.
 #include "pfgeom/base/error.h"
 #include "pfgeom/codec/codec.h"
+#include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/compress.h"
 #include "pfgeom/eval/model_field.h"
+#include "pfgeom/mesh/close_holes.h"
 #include "pfgeom/mesh/edges.h"
+#include "pfgeom/mesh/prepare.h"
+#include "pfgeom/mesh/weld.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -48,6 +52,12 @@ std::vector<Vec3> border(const TriangleMesh& mesh) {
     for (const std::int32_t side : EdgeTable(mesh.faces, mesh.vertices.size()).boundary())
         points.push_back(mesh.vertices[mesh.faces[side / 3][side % 3]]);
     return points;
+}
+
+// How many borders it has.
+int borders(const TriangleMesh& mesh) {
+    const ClosedIsland closed = close_holes(mesh);
+    return static_cast<int>(closed.mesh.vertices.size() - mesh.vertices.size());
 }
 
 Compressed compressed(const TriangleMesh& mesh) {
@@ -104,6 +114,75 @@ TEST(Sheet, OtherOpenShapesAreMeshParts) {
         ASSERT_NE(part, nullptr);
         EXPECT_EQ(c.report.islands.at(0).candidate, part->curved() ? "patches" : "mesh");
     }
+}
+
+// A bumpy ball with two holes: where it is, functions; where its borders are, planes.
+TriangleMesh blob_with_holes(int rounds) {
+    TriangleMesh mesh = shapes::bumpy_sphere(rounds);
+    std::erase_if(mesh.faces, [&](const Triangle& t) {
+        const Vec3 p = normalized(mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
+        return p.z > 0.95 || p.x < -0.9;
+    });
+    compact_vertices(mesh);
+    return mesh;
+}
+
+Model as_cut_sheet(const TriangleMesh& mesh, double tolerance, const Task& task = {}) {
+    const Bvh bvh(mesh);
+    const double size = diagonal(mesh);
+    const Goal goal{mesh, bvh, tolerance * size, Metric::rms, size, false, Effort::fast};
+    const std::optional<Outcome> found = try_open_hierarchy(goal, 1U << 20, task);
+    EXPECT_TRUE(found && found->holds);
+    return found ? model_of(goal, *found) : Model{};
+}
+
+TEST(Sheet, AFreeFormWithHolesIsCutOutOfAClosedOne) {
+    const TriangleMesh input = blob_with_holes(3);
+    const Model model = as_cut_sheet(input, 2e-3);
+    const FunctionCount count = count_functions(model);
+    EXPECT_EQ(count.surface, 1);
+    EXPECT_GT(count.perturbations, 10);
+    EXPECT_GE(count.separators, 2);
+    const ModelField field(model);
+    EXPECT_LT(field.value({0, 0, 0}), 0) << "it has no inside";
+    for (const MeshOptions& options : {MeshOptions{}, MeshOptions{{}, 60}, MeshOptions{{}, 200}}) {
+        const TriangleMesh mesh = to_mesh(model, options);
+        EXPECT_LE(measure_deviation(input, mesh).rms(), 2.5e-3 * diagonal(input));
+        const PreparedMesh prepared = prepare_mesh(mesh, 0);
+        ASSERT_EQ(prepared.islands.size(), 1U);
+        EXPECT_TRUE(prepared.islands[0].manifold && prepared.islands[0].oriented);
+        EXPECT_EQ(borders(mesh), 2);
+        for (const Vec3& p : mesh.vertices) EXPECT_NEAR(field.value(p), 0, 1e-2);
+    }
+}
+
+TEST(Sheet, ACutOneDoesNotDependOnThreads) {
+    const TriangleMesh input = blob_with_holes(3);
+    EXPECT_EQ(encode(as_cut_sheet(input, 2e-3, {1, nullptr, {}})),
+              encode(as_cut_sheet(input, 2e-3, {3, nullptr, {}})));
+}
+
+TEST(Sheet, AFreeFormWithHolesTakesFewestBytesCut) {
+    const TriangleMesh input = blob_with_holes(4);
+    const CompressOptions options{.tolerance = 1e-3, .metric = Metric::rms, .effort = Effort::fast};
+    const Compressed c = compress(input, options);
+    EXPECT_EQ(c.report.islands.at(0).candidate, "sheet");
+    EXPECT_LE(measure_deviation(input, to_mesh(*decode(c.bytes))).rms(), 1e-3 * diagonal(input));
+}
+
+// The polygonizer closes a surface that leaves the cube; those sides are none of it.
+TEST(Sheet, SidesOfTheCubeAreNoSurface) {
+    Model model;
+    model.diagonal = 2;
+    model.functions.resize(1);
+    model.functions[0].base = {{0, 0, 0, 0, 0, 0, 0, 0, -1, 0.25}};  // z = 1/4
+    model.objects.emplace_back();
+    model.objects[0].shape = Sheet{0, -1, plain_paint(Sheet::kKept).trees.front()};
+    model.objects[0].mesh_code = 36;
+    const TriangleMesh mesh = to_mesh(model);
+    EXPECT_NEAR(surface_area(mesh), 4, 0.2);
+    const double chord = 2 * exp2_eighths(-72);
+    for (const Vec3& v : mesh.vertices) EXPECT_NEAR(v.z, 0.25, chord);
 }
 
 TEST(Sheet, PerturbationsAreRefusedByName) {

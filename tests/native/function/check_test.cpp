@@ -64,7 +64,13 @@ TEST(Check, IndicesMustExist) {
     EXPECT_NE(with_node({Kind::decide, 0, 0, 1}), "");
     EXPECT_NE(with_node({static_cast<Kind>(7), 0, 0, 0}), "");
     EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = Solid{}; }), "");
-    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = Sheet{0, 1}; }), "");
+    EXPECT_NE(flaw_after([](Model& m) { m.objects[0].shape = Sheet{0, 1, {}}; }), "");
+    const MaterialTree kept = plain_paint(Sheet::kKept).trees.front(), third = plain_paint(2).trees.front();
+    EXPECT_EQ(flaw_after([&](Model& m) { m.objects[0].shape = Sheet{0, -1, kept}; }), "");
+    EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = Sheet{1, -1, kept}; }), "");
+    EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = Sheet{0, 0, kept}; }), "");
+    EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = Sheet{0, -1, third}; }), "");
+    EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = Sheet{0, -1, {}}; }), "");
     EXPECT_NE(flaw_after([](Model& m) {
                   m.objects[0].shape = MeshPart{0, {{0, 0, 0}}, {{0, 0, 1}}, 0, {}};
               }),

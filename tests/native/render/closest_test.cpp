@@ -124,7 +124,7 @@ TEST(Closest, SheetEndsAtItsTrim) {
     model.functions[0].base = {{0, 0, 0, 0, 0, 0, 0, 0, -1, 0.25}};
     model.functions[1].base = {{-1, -1, 0, 0, 0, 0, 0, 0, 0, 0.25}};
     model.objects.emplace_back();
-    model.objects[0].shape = Sheet{0, 1};
+    model.objects[0].shape = Sheet{0, 1, {}};
     const RayScene scene(model);
     ExtremeSearch search(kTask);
     Random random(2);
@@ -143,6 +143,35 @@ TEST(Closest, SheetEndsAtItsTrim) {
     EXPECT_NEAR(box.hi.y, 0.5, 1e-6);
     EXPECT_NEAR(box.lo.z, 0.25, 1e-6);
     EXPECT_NEAR(box.hi.z, 0.25, 1e-6);
+}
+
+// A ball cut by random planes: no point of it is nearer than what is proved, and the answer is one of them.
+TEST(Closest, SheetEndsWhereItIsCut) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Random random(seed);
+        Model model = test::ball();
+        Sheet sheet{0, -1, {}};
+        test::grow_material_tree(random, root_cell(), 4, 2, sheet.cut);
+        std::vector<Vec3> kept;
+        for (int i = 0; i < 20000; ++i) {
+            const Vec3 p = normalized(test::any_point(random, 1)) * std::sqrt(0.5);
+            if (material_at(sheet.cut, p) == Sheet::kKept) kept.push_back(p);
+        }
+        model.objects[0].shape = sheet;
+        const RayScene scene(model);
+        ExtremeSearch search(kTask);
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 p = test::any_point(random, 1);
+            double least = std::numeric_limits<double>::infinity();
+            for (const Vec3& q : kept) least = std::min(least, norm(p - q));
+            const NearestPoint found = scene.nearest(p, 1e-6, search);
+            EXPECT_LE(found.proved, least + 1e-12);
+            if (kept.empty()) continue;
+            EXPECT_LE(found.distance, least + 1e-6) << seed;
+            EXPECT_NEAR(norm(found.point), std::sqrt(0.5), 1e-9);
+            EXPECT_EQ(material_at(sheet.cut, found.point), Sheet::kKept);
+        }
+    }
 }
 
 // Balls of radius s/√2: exact, and the object is told.

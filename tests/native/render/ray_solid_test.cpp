@@ -117,7 +117,7 @@ TEST(RaySolid, SheetEndsAtItsTrim) {
     model.functions.resize(2);
     model.functions[0].base = {{0, 0, 0, 0, 0, 0, 0, 0, -1, 0.25}};   // z = 1/4
     model.functions[1].base = {{-1, -1, 0, 0, 0, 0, 0, 0, 0, 0.25}};  // within a circle of radius 1/2
-    const RaySolid target(model, Sheet{0, 1}, kUnit, {});
+    const RaySolid target(model, Sheet{0, 1, {}}, kUnit, {});
     Random random(2);
     for (int i = 0; i < 2000; ++i) {
         const Ray ray = test::random_ray(random, kCube);
@@ -132,6 +132,41 @@ TEST(RaySolid, SheetEndsAtItsTrim) {
         EXPECT_NEAR(hit.normal.z, 1, 1e-12);
         EXPECT_EQ(hit.function, 0);
     }
+}
+
+// A bumpy ball, cut by random planes.
+TEST(RaySolid, SheetEndsWhereItIsCut) {
+    int hits = 0, misses = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        Random random(seed);
+        Model model;
+        model.functions = {bumpy(random, 4)};
+        Sheet sheet{0, -1, {}};
+        test::grow_material_tree(random, root_cell(), 5, 2, sheet.cut);
+        const RaySolid cut(model, sheet, kUnit, {}), whole(model, kAlone, kUnit, {});
+        for (int i = 0; i < 300; ++i) {
+            const Ray ray = test::random_ray(random, kCube);
+            RaySpan span;
+            SurfaceHit expected;  // the first hit of the whole that is kept
+            for (int crossing = 0; crossing < 20; ++crossing) {
+                const SurfaceHit hit = whole.first_hit(ray, span);
+                if (!hit.found()) break;
+                if (hit.function == 0 && material_at(sheet.cut, ray.at(hit.t)) == Sheet::kKept) {
+                    expected = hit;
+                    break;
+                }
+                span.from = hit.t + 1e-9;
+            }
+            const SurfaceHit hit = cut.first_hit(ray, {});
+            ASSERT_EQ(hit.found(), expected.found()) << seed << " " << i;
+            (hit.found() ? hits : misses) += 1;
+            if (!hit.found()) continue;
+            EXPECT_NEAR(hit.t, expected.t, 1e-9);
+            EXPECT_EQ(hit.function, 0);
+        }
+    }
+    EXPECT_GT(hits, 300);
+    EXPECT_GT(misses, 300);
 }
 
 // Functions whose ranges never exclude zero, since two huge perturbations cancel: no cell prunes any of them,

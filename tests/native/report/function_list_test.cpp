@@ -118,7 +118,7 @@ TEST(FunctionList, FunctionsOfSolidsAndSheetsOnce) {
     bumpy.perturbations = {{0.5, sphere.base}};
     model.functions = {sphere, plane, bumpy};
     Object sheet;
-    sheet.shape = Sheet{1, 0};
+    sheet.shape = Sheet{1, 0, {}};
     model.objects = {sheet, solid_of(0), solid_of(2), solid_of(0)};
     const std::vector<ListedFunction> list = list_functions(model);
     ASSERT_EQ(list.size(), 3U);

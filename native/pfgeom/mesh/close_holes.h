@@ -1,0 +1,18 @@
+// An island with borders, closed.
+#pragma once
+
+#include "pfgeom/mesh/triangle_mesh.h"
+
+#include <cstddef>
+
+namespace pfgeom {
+
+/// Its own faces come first, as they were; behind them a fan for each border, around a new vertex in its
+/// middle. `island`: oriented, and a manifold, so that no two borders meet.
+struct ClosedIsland {
+    TriangleMesh mesh;
+    std::size_t own_faces = 0;
+};
+ClosedIsland close_holes(const TriangleMesh& island);
+
+}  // namespace pfgeom
