@@ -58,7 +58,11 @@ class Shortener {
             const auto at = samples.find(leaf_of_[f]);
             if (at != samples.end()) at->second.push_back(sample_of(f, wrong[f] != 0));
         }
-        for (const auto& [row, list] : samples) parts[row] = part_of_leaf(row, list, wrong);
+        for (const auto& [row, list] : samples) {
+            const Place place = place_of(row);
+            MaterialTree part = part_of_leaf(row, place.cell, list, wrong);
+            if (place.depth + depth_of(part, 0) <= kMaxMaterialDepth) parts[row] = std::move(part);
+        }
         splice(parts);
         return !parts.empty();
     }
@@ -146,7 +150,7 @@ class Shortener {
         return sample;
     }
 
-    MaterialTree part_of_leaf(std::int32_t row, const std::vector<MaterialSample>& samples,
+    MaterialTree part_of_leaf(std::int32_t row, const Box& cell, const std::vector<MaterialSample>& samples,
                               const std::vector<char>& wrong) {
         std::vector<BorderPiece> borders;
         EdgeTable(mesh_.faces, mesh_.vertices.size()).for_each([&](std::span<const EdgeUse> uses) {
@@ -157,23 +161,34 @@ class Shortener {
                 const Vec3 from = mesh_.vertices[use.lo], to = mesh_.vertices[use.hi];
                 const Vec3 normal = cross(mesh_.vertices[t[1]] - mesh_.vertices[t[0]],
                                           mesh_.vertices[t[2]] - mesh_.vertices[t[0]]);
-                borders.push_back({frame_.to_local((from + to) / 2), normalized(cross(to - from, normal))});
+                const Vec3 across = cross(to - from, normal);
+                if (squared_norm(across) > 0)
+                    borders.push_back({frame_.to_local((from + to) / 2), normalized(across)});
             }
         });
-        const MaterialFit options{goal_.tolerance / frame_.half() / 8, 8, cell_of(row)};
+        const MaterialFit options{goal_.tolerance / frame_.half() / 8, 8, cell};
         return fit_material_tree(samples, borders, options, task_);
     }
 
-    Box cell_of(std::int32_t row) const {
+    // Where a leaf is: what the cuts above it leave, and the questions.
+    struct Place {
         Box cell = root_cell();
-        std::int32_t at = 0;
-        while (at != row) {
+        int depth = 0;
+    };
+    Place place_of(std::int32_t row) const {
+        Place place;
+        for (std::int32_t at = 0; at != row; ++place.depth) {
             const MaterialNode& node = tree_.nodes[static_cast<std::size_t>(at)];
             const bool high = row < node.low;  // depth first
-            cell = high ? high_cell(node, cell) : low_cell(node, cell);
+            place.cell = high ? high_cell(node, place.cell) : low_cell(node, place.cell);
             at = high ? node.high : node.low;
         }
-        return cell;
+        return place;
+    }
+
+    static int depth_of(const MaterialTree& tree, std::int32_t row) {
+        const MaterialNode& node = tree.nodes[static_cast<std::size_t>(row)];
+        return node.leaf() ? 0 : 1 + std::max(depth_of(tree, node.high), depth_of(tree, node.low));
     }
 
     void splice(const std::map<std::int32_t, MaterialTree>& parts) {

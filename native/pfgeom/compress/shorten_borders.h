@@ -1,4 +1,4 @@
-// The borders of a paint, where the tolerance leaves a choice.
+// The border between two materials, where the tolerance leaves a choice.
 #pragma once
 
 #include "pfgeom/compress/labelled_surface.h"
