@@ -88,19 +88,16 @@ TEST(CurvedPart, DoesNotDependOnThreads) {
     };
     const auto compare = [&](const TriangleMesh& mesh, double share, Metric metric) {
         SCOPED_TRACE(testing::Message() << mesh.faces.size() << " faces");
-        const MeshPart one = fit(mesh, share, metric, 1);
-        for (const int threads : {2, 5}) {
-            const MeshPart more = fit(mesh, share, metric, threads);
-            EXPECT_EQ(one.positions, more.positions);
-            EXPECT_EQ(one.faces, more.faces);
-            EXPECT_EQ(one.bulges, more.bulges);
-        }
+        const MeshPart one = fit(mesh, share, metric, 1), three = fit(mesh, share, metric, 3);
+        EXPECT_EQ(one.positions, three.positions);
+        EXPECT_EQ(one.faces, three.faces);
+        EXPECT_EQ(one.bulges, three.bulges);
     };
-    compare(shapes::bumpy_sphere(3), 2e-3, Metric::max);
-    compare(shapes::cylinder(), 2e-3, Metric::max);
-    compare(shapes::saddle(24), 1e-3, Metric::max);
-    compare(shapes::edge_fan(), 1e-2, Metric::max);
-    compare(shapes::bumpy_sphere(2), 5e-3, Metric::rms);
+    compare(shapes::bumpy_sphere(2), 4e-3, Metric::max);
+    compare(shapes::cylinder(), 1e-2, Metric::max);
+    compare(shapes::saddle(10), 3e-3, Metric::max);
+    compare(shapes::edge_fan(), 2e-2, Metric::max);
+    compare(shapes::bumpy_sphere(1), 1e-2, Metric::rms);
 }
 
 TEST(CurvedPart, StopsWhenCancelled) {
