@@ -122,9 +122,10 @@ check-sanitizers: check-tools
 # The tests that use threads, and one mesh through the whole pipeline.
 check-threads: check-tools
 	cmake --preset tsan >/dev/null
-	cmake --build build/tsan --parallel $(jobs) --target test_base test_polygonize test_report determinism_driver
-	TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build/tsan --output-on-failure -L 'base|polygonize|report' \
-	    -R 'Parallel|Thread|Cancel'
+	cmake --build build/tsan --parallel $(jobs) --target test_base test_fit test_polygonize test_report \
+	    determinism_driver
+	TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build/tsan --output-on-failure -L 'base|fit|polygonize|report' \
+	    -R 'Parallel|Thread|Cancel|PatchLoop|CollapseAhead' -E '$(too_slow)'
 	TSAN_OPTIONS=halt_on_error=1 build/tsan/tests/determinism/determinism_driver 4 pebble
 
 check-fuzz: check-tools

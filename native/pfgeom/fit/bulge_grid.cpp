@@ -1,6 +1,7 @@
 #include "pfgeom/fit/bulge_grid.h"
 
 #include "pfgeom/eval/edge_axes.h"
+#include "pfgeom/fit/patch_loop.h"
 #include "pfgeom/function/edges_of_faces.h"
 
 #include <array>
@@ -43,14 +44,7 @@ class BulgeSnapper {
     std::vector<EdgeEnds> run(const Task& task) {
         std::vector<std::size_t> open(faces_at_.size());
         std::iota(open.begin(), open.end(), std::size_t{0});
-        for (int round = 0; round < kRounds && !open.empty(); ++round) {
-            std::vector<std::size_t> failed;
-            for (std::size_t i = 0; i < open.size(); ++i) {
-                task.check();
-                if (!snap(open[i], limit(open.size() - i))) failed.push_back(open[i]);
-            }
-            open = std::move(failed);
-        }
+        for (int round = 0; round < kRounds && !open.empty(); ++round) open = failed(open, task);
         std::vector<EdgeEnds> ends;
         for (const std::size_t row : open) {
             const auto& [face, k] = faces_at_[row][0];
@@ -64,23 +58,37 @@ class BulgeSnapper {
         std::int32_t face;
         std::size_t k;
     };
+    // Snaps these edges; returns those that fail.
+    std::vector<std::size_t> failed(const std::vector<std::size_t>& open, const Task& task) {
+        PatchLoop loop(mesh_, error_);
+        for (const std::size_t row : open) {
+            std::vector<std::int32_t> faces;
+            for (const Side& side : faces_at_[row]) faces.push_back(side.face);
+            loop.add(faces);
+        }
+        std::vector<std::uint8_t> fails(open.size(), 0);
+        loop.run(task, [&](std::size_t i) { fails[i] = snap(open[i], limit(open.size() - i)) ? 0 : 1; });
+        std::vector<std::size_t> result;
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            if (fails[i] != 0) result.push_back(open[i]);
+        }
+        return result;
+    }
     Vec3 vector_of(std::size_t row, const Bulge& b) const {
         return (axes_[row].normal * b.normal + axes_[row].sideways * b.sideways) * step_;
     }
-    void propose(std::size_t row, const Vec3& bulge) {
-        patch_.before.clear();
-        patch_.triangles.clear();
-        patch_.bulges.clear();
-        patch_.ends.clear();
+    Patch with_bulge(std::size_t row, const Vec3& bulge) const {
+        Patch patch;
         for (const Side& side : faces_at_[row]) {
-            patch_.before.push_back(side.face);
+            patch.before.push_back(side.face);
             const auto t = mesh_.corners(side.face);
             const std::size_t i = side.k, j = (i + 1) % 3, k = (i + 2) % 3;
-            patch_.triangles.push_back({t[i], t[j], t[k]});
-            patch_.bulges.push_back({bulge, mesh_.bulge(side.face, j), mesh_.bulge(side.face, k)});
-            patch_.ends.push_back({mesh_.face(side.face)[j], mesh_.face(side.face)[k]});
+            patch.triangles.push_back({t[i], t[j], t[k]});
+            patch.bulges.push_back({bulge, mesh_.bulge(side.face, j), mesh_.bulge(side.face, k)});
+            patch.ends.push_back({mesh_.face(side.face)[j], mesh_.face(side.face)[k]});
         }
-        patch_.after = patch_.before;
+        patch.after = patch.before;
+        return patch;
     }
     // What an edge's bulge may cost, in the unit of CollapseError::forward(): for the rms an even share of
     // what the sum may still rise.
@@ -89,13 +97,13 @@ class BulgeSnapper {
         const double rise = limits_.forward * limits_.forward - error_.mean_square();
         return rise * error_.total_weight() / static_cast<double>(left);
     }
-    double cost(std::size_t row, const Bulge& b, double most) {
-        propose(row, vector_of(row, b));
-        const double forward = error_.forward(patch_, most);
+    double cost(std::size_t row, const Bulge& b, double most) const {
+        const Patch patch = with_bulge(row, vector_of(row, b));
+        const double forward = error_.forward(patch, most);
         if (!(forward < most)) return kInfinity;
         if (limits_.metric == Metric::rms)
-            return error_.stays_near(patch_, limits_.backward) ? forward : kInfinity;
-        return std::max(forward, error_.backward(patch_, most, forward));
+            return error_.stays_near(patch, limits_.backward) ? forward : kInfinity;
+        return std::max(forward, error_.backward(patch, most, forward));
     }
     bool snap(std::size_t row, double limit) {
         const EdgeAxes& axes = axes_[row];
@@ -123,8 +131,7 @@ class BulgeSnapper {
                 try_bulge({rounded.normal + kOthers[i][0], rounded.sideways + kOthers[i][1]});
         }
         part_.bulges[row] = best;
-        propose(row, vector_of(row, best));
-        error_.commit(patch_);
+        error_.commit(with_bulge(row, vector_of(row, best)));
         for (const Side& side : faces_at_[row]) mesh_.set_bulge(side.face, side.k, vector_of(row, best));
         return least <= limit;
     }
@@ -138,7 +145,6 @@ class BulgeSnapper {
     std::vector<EdgeAxes> axes_;
     std::vector<std::vector<Side>> faces_at_;  // of each edge
     double step_;
-    Patch patch_;
 };
 
 }  // namespace

@@ -114,7 +114,7 @@ void CollapseError::refit(Patch& patch, bool free) const {
     DenseSystem system(unknowns.count());
     Row row;
     const double least = kLeastWeight * tolerance_ * tolerance_;
-    visit_samples(patch, [&](const Sample& sample, const auto& found, int) {
+    visit_samples(patch, [&](const FaceSample& sample, const auto& found) {
         const Vec3& w = found.weights;
         const double d = std::sqrt(found.squared);
         Vec3 direction = sample.p - found.point;
@@ -131,7 +131,7 @@ void CollapseError::refit(Patch& patch, bool free) const {
         unknowns.add_bulge(row, ends[1], 4 * w.x * w.z, direction);
         system.add(row, d, metric_ == Metric::max ? found.squared + least : sample.weight);
     });
-    const double mean = total_weight_ / static_cast<double>(samples_.size());
+    const double mean = samples_.mean_weight();
     for (std::size_t i = 0; i < spokes.list().size(); ++i) {
         const Spoke& s = spokes.list()[i];
         if (s.line == nullptr) continue;

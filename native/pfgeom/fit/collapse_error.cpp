@@ -1,6 +1,5 @@
 #include "pfgeom/fit/collapse_error.h"
 
-#include "pfgeom/fit/missed_points.h"
 #include "pfgeom/fit/symmetric3.h"
 
 #include <algorithm>
@@ -11,19 +10,8 @@ namespace pfgeom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// An edge or face is divided into at most this many parts along each side.
-constexpr int kMostParts = 24;
 // Where no more than this many tolerances can come out, the search for the largest distance ends.
 constexpr double kHarmless = 0.8;
-
-int parts(double length, double spacing) {
-    return static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, static_cast<double>(kMostParts)));
-}
-
-double longest(const std::array<Vec3, 3>& t) {
-    return std::sqrt(
-        std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])}));
-}
 
 // Barycentric weight of corner 0 at a point q of the triangle.
 double weight_of_corner(const std::array<Vec3, 3>& t, const Vec3& q) {
@@ -51,77 +39,10 @@ CollapseError::CollapseError(const TriangleMesh& original, Metric metric, double
       tolerance_(tolerance),
       spacing_(spacing),
       bvh_(original, task),
-      first_(original.faces.size(), -1) {
-    sample_faces(original, spacing);
-    sample_edges(original, spacing);
-}
+      samples_(original, spacing) {}
 
 void CollapseError::start_from(const TriangleMesh& part, const Task& task) {
-    const Bvh bvh(part, task);
-    for (std::size_t f = part.faces.size(); f < first_.size(); ++f) {
-        std::int32_t hint = -1;
-        for (std::int32_t s = first_[f]; s >= 0;) {
-            task.check();
-            Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const ClosestPoint found = bvh.closest(sample.p, std::numeric_limits<double>::infinity(), hint);
-            hint = found.face;
-            sample.squared = found.squared_distance;
-            sum_ += sample.weight * sample.squared;
-            std::int32_t& first = first_[static_cast<std::size_t>(found.face)];
-            const std::int32_t next = std::exchange(sample.next, first);
-            first = std::exchange(s, next);
-        }
-    }
-    first_.resize(part.faces.size());
-}
-
-void CollapseError::add(const Vec3& p, double weight, std::int32_t face) {
-    std::int32_t& first = first_[static_cast<std::size_t>(face)];
-    samples_.push_back({p, weight, 0, first, face});
-    first = static_cast<std::int32_t>(samples_.size()) - 1;
-    total_weight_ += weight;
-}
-
-void CollapseError::add(const std::vector<MissedPoint>& missed) {
-    for (const MissedPoint& m : missed) {
-        std::int32_t& first = first_[static_cast<std::size_t>(m.face)];
-        samples_.push_back({m.p, 0, m.squared, first, m.origin});
-        first = static_cast<std::int32_t>(samples_.size()) - 1;
-    }
-}
-
-// Vertices (once each) and the inside of each face: its centroid, or a lattice if it is large.
-void CollapseError::sample_faces(const TriangleMesh& mesh, double spacing) {
-    std::vector<std::uint8_t> seen(mesh.vertices.size(), 0);
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const auto id = static_cast<std::int32_t>(f);
-        std::array<Vec3, 3> t;
-        for (std::size_t k = 0; k < 3; ++k) t[k] = mesh.vertices[static_cast<std::size_t>(mesh.faces[f][k])];
-        const double area = norm(cross(t[1] - t[0], t[2] - t[0])) / 2;
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::uint8_t& mark = seen[static_cast<std::size_t>(mesh.faces[f][k])];
-            if (mark == 0) add(t[k], area / 4, id);
-            mark = 1;
-        }
-        const int n = parts(longest(t), spacing) + 2;  // the lattice without its border: one point for n = 3
-        const double weight = 0.75 * area / ((n - 1) * (n - 2) / 2);
-        for (int i = 1; i < n; ++i) {
-            for (int j = 1; i + j < n; ++j) add((t[0] * (n - i - j) + t[1] * i + t[2] * j) / n, weight, id);
-        }
-    }
-}
-
-// The inside of each edge that is longer than the spacing.
-void CollapseError::sample_edges(const TriangleMesh& mesh, double spacing) {
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3& a = mesh.vertices[static_cast<std::size_t>(mesh.faces[f][k])];
-            const Vec3& b = mesh.vertices[static_cast<std::size_t>(mesh.faces[f][(k + 1) % 3])];
-            const int n = parts(norm(b - a), spacing);
-            for (int i = 1; i < n; ++i)
-                add(a + (b - a) * (static_cast<double>(i) / n), 0, static_cast<std::int32_t>(f));
-        }
-    }
+    sum_ += samples_.start_from(part, task);
 }
 
 double CollapseError::forward(const Patch& patch, double limit) const {
@@ -130,7 +51,7 @@ double CollapseError::forward(const Patch& patch, double limit) const {
     double cost = 0;
     const NearestFace nearest(patch, tolerance_);
     const auto enough = [&] { return by_max ? cost : measured_out(); };
-    const auto add_sample = [&](const Sample& sample, const NearestFace::Found& found, std::int32_t) {
+    const auto add_sample = [&](const FaceSample& sample, const NearestFace::Found& found) {
         if (by_max)
             cost = std::max(cost, found.squared);
         else
@@ -203,17 +124,18 @@ double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface
 double CollapseError::backward(const Patch& patch, double limit, double enough) const {
     double worst = rims(patch, limit, enough);
     for (std::size_t row = 0; row < patch.triangles.size() && worst <= limit; ++row) {
-        const std::int32_t s = first_[static_cast<std::size_t>(patch.after[row])];
-        const std::int32_t hint = s >= 0 ? samples_[static_cast<std::size_t>(s)].origin : -1;
+        const std::vector<FaceSample>& samples = samples_.of(patch.after[row]);
+        const std::int32_t hint = samples.empty() ? -1 : samples.back().origin;
         const std::array<Vec3, 3>& t = patch.triangles[row];
+        const double longest = std::sqrt(longest_squared(t));
         if (patch.curved()) {
             const CurvedFace at{patch.surface(row)};
             const double finest =
-                std::max(closeness_.finest * tolerance_, longest(t) / (kCurvedParts * closeness_.parts));
+                std::max(closeness_.finest * tolerance_, longest / (kCurvedParts * closeness_.parts));
             worst = std::max(worst,
                              farthest({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, at, finest, limit, enough, hint));
         } else {
-            const double finest = std::max(closeness_.finest * tolerance_, longest(t) / closeness_.parts);
+            const double finest = std::max(closeness_.finest * tolerance_, longest / closeness_.parts);
             worst = std::max(worst, farthest(t, FlatFace{}, finest, limit, enough, hint));
         }
     }
@@ -226,7 +148,7 @@ Vec3 CollapseError::fitted(const Patch& patch) const {
     Symmetric3 system;
     Vec3 right;
     double trace = 0;
-    visit_samples(patch, [&](const Sample& sample, const auto& found, int) {
+    visit_samples(patch, [&](const FaceSample& sample, const auto& found) {
         const auto& t = patch.triangles[found.row];
         const double lambda = weight_of_corner(t, found.point), d = std::sqrt(found.squared);
         const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
@@ -243,23 +165,17 @@ Vec3 CollapseError::fitted(const Patch& patch) const {
 
 void CollapseError::commit(const Patch& patch) {
     struct Moved {
-        std::int32_t sample;
-        std::size_t row;
-        double squared;
+        FaceSample sample;
+        std::int32_t face;
     };
     std::vector<Moved> moved;
-    visit_samples(patch, [&](const Sample&, const auto& found, std::int32_t index) {
-        moved.push_back({index, found.row, found.squared});
+    visit_samples(patch, [&](const FaceSample& sample, const auto& found) {
+        if (metric_ == Metric::rms) sum_ += sample.weight * (found.squared - sample.squared);
+        moved.push_back({sample, patch.after[found.row]});
+        moved.back().sample.squared = found.squared;
     });
-    for (const std::int32_t f : patch.before) first_[static_cast<std::size_t>(f)] = -1;
-    for (const Moved& m : moved) {
-        Sample& sample = samples_[static_cast<std::size_t>(m.sample)];
-        sum_ += sample.weight * (m.squared - sample.squared);
-        sample.squared = m.squared;
-        std::int32_t& first = first_[static_cast<std::size_t>(patch.after[m.row])];
-        sample.next = first;
-        first = m.sample;
-    }
+    for (const std::int32_t f : patch.before) samples_.clear(f);
+    for (const Moved& m : moved) samples_.put(m.face, m.sample);
 }
 
 }  // namespace pfgeom

@@ -7,6 +7,7 @@
 
 #include "pfgeom/base/task.h"
 #include "pfgeom/fit/collapse_mesh.h"
+#include "pfgeom/fit/face_samples.h"
 #include "pfgeom/fit/feature_lines.h"
 #include "pfgeom/fit/integer_grid.h"
 #include "pfgeom/fit/nearest_face.h"
@@ -19,8 +20,6 @@
 #include <vector>
 
 namespace pfgeom {
-
-struct MissedPoint;
 
 /// How fast distances are taken to change over a new triangle (1 is safe), the smallest part of it that is
 /// looked at, in tolerances, and into how many parts a side is divided at most.
@@ -71,35 +70,30 @@ class CollapseError {
     /// How closely backward() looks from now on.
     void look(const Closeness& closeness) { closeness_ = closeness; }
     /// For faces with higher ids than the original's.
-    void make_room(const CollapseMesh& mesh) { first_.resize(mesh.face_ids(), -1); }
+    void make_room(const CollapseMesh& mesh) { samples_.make_room(mesh.face_ids()); }
     /// More samples, without a weight.
-    void add(const std::vector<MissedPoint>& missed);
+    void add(const std::vector<MissedPoint>& missed) { samples_.add(missed); }
     /// Hands the samples over.
     void commit(const Patch& patch);
 
-    /// Weighted mean of the squared distances of all samples, by the faces they live on.
-    double mean_square() const { return sum_ / total_weight_; }
-    double total_weight() const { return total_weight_; }
+    /// May patches without a face in common be committed side by side? The rms has one sum for all.
+    bool independent() const { return metric_ == Metric::max; }
+
+    /// Of the rms: weighted mean of the squared distances of all samples, by the faces they live on.
+    double mean_square() const { return sum_ / samples_.total_weight(); }
+    double total_weight() const { return samples_.total_weight(); }
 
   private:
-    struct Sample {
-        Vec3 p;
-        double weight;           // area that it stands for
-        double squared = 0;      // distance to the current mesh
-        std::int32_t next = -1;  // of the same face
-        std::int32_t origin;     // face of the original
-    };
-    /// Calls visit(sample, found, index) for the samples of a face that a patch replaces, until it returns
-    /// false (then that is returned). Faces as close as enough() are not measured out.
+    /// Calls visit(sample, found) for the samples of a face that a patch replaces, until it returns false
+    /// (then that is returned). Faces as close as enough() are not measured out.
     template <class Enough, class Visit>
     bool visit_samples(const NearestFace& nearest, std::int32_t f, Enough enough, Visit visit) const {
         std::size_t likely = nearest.row_of(f);
-        for (std::int32_t s = first_[static_cast<std::size_t>(f)]; s >= 0;
-             s = samples_[static_cast<std::size_t>(s)].next) {
-            const Sample& sample = samples_[static_cast<std::size_t>(s)];
-            const NearestFace::Found found = nearest(sample.p, likely, enough());
+        const std::vector<FaceSample>& samples = samples_.of(f);
+        for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample) {
+            const NearestFace::Found found = nearest(sample->p, likely, enough());
             likely = found.row;
-            if (!visit(sample, found, s)) return false;
+            if (!visit(*sample, found)) return false;
         }
         return true;
     }
@@ -108,10 +102,11 @@ class CollapseError {
     void visit_samples(const Patch& patch, Visit visit) const {
         const NearestFace nearest(patch, tolerance_);
         for (const std::int32_t f : patch.before) {
-            visit_samples(nearest, f, measured_out, [&](const auto&... sample) {
-                visit(sample...);
-                return true;
-            });
+            visit_samples(nearest, f, measured_out,
+                          [&](const FaceSample& sample, const NearestFace::Found& found) {
+                              visit(sample, found);
+                              return true;
+                          });
         }
     }
     static double measured_out() { return -1; }
@@ -119,9 +114,6 @@ class CollapseError {
     double farthest(const std::array<Vec3, 3>& corners, const Surface& surface, double finest, double limit,
                     double enough, std::int32_t hint) const;
     double rims(const Patch& patch, double limit, double enough) const;
-    void add(const Vec3& p, double weight, std::int32_t face);
-    void sample_edges(const TriangleMesh& mesh, double spacing);
-    void sample_faces(const TriangleMesh& mesh, double spacing);
 
     Vec3 first_bulge(const Vec3& middle, const Spoke& spoke) const;
     Spokes spokes_of(const Patch& patch) const;
@@ -135,9 +127,8 @@ class CollapseError {
     Closeness closeness_ = kGlance;
     static constexpr int kCurvedParts = 3;  // times as many: patches are larger (os-plane: by 6 tolerances)
     Bvh bvh_;
-    std::vector<Sample> samples_;
-    std::vector<std::int32_t> first_;  // of each face: its samples
-    double sum_ = 0, total_weight_ = 0;
+    FaceSamples samples_;
+    double sum_ = 0;  // of the rms
 };
 
 }  // namespace pfgeom

@@ -26,10 +26,6 @@ Vec3 doubled_area(const std::array<Vec3, 3>& t) {
     return cross(t[1] - t[0], t[2] - t[0]);
 }
 
-double longest_squared(const std::array<Vec3, 3>& t) {
-    return std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])});
-}
-
 // A face may turn by up to 78 degrees at once, and become flatter than kFlattest (its height over its longest
 // edge) only if it was flatter before: else it would be folded over by the next rounding to the grid.
 constexpr double kLeastCosine = 0.2, kFlattest = 0.02;
@@ -233,6 +229,14 @@ std::int32_t CollapseMesh::split(std::int32_t u, std::int32_t v) {
         ++alive_;
     }
     return middle;
+}
+
+std::vector<std::int32_t> CollapseMesh::vertices_left() const {
+    std::vector<std::int32_t> left;
+    for (std::size_t v = 0; v < at_.size(); ++v) {
+        if (!at_[v].empty()) left.push_back(static_cast<std::int32_t>(v));
+    }
+    return left;
 }
 
 std::vector<std::int32_t> CollapseMesh::faces_left() const {

@@ -8,12 +8,18 @@
 #include "pfgeom/mesh/halves.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace pfgeom {
+
+/// Square of a triangle's longest side.
+inline double longest_squared(const std::array<Vec3, 3>& t) {
+    return std::max({squared_norm(t[1] - t[0]), squared_norm(t[2] - t[1]), squared_norm(t[0] - t[2])});
+}
 
 /// What an operation would do: the faces around one vertex at its new place, instead of the faces before.
 struct Patch {
@@ -88,6 +94,8 @@ class CollapseMesh {
     TriangleMesh result() const;
     /// Those faces, in the same order.
     std::vector<std::int32_t> faces_left() const;
+    /// Those vertices, in rising order.
+    std::vector<std::int32_t> vertices_left() const;
 
   private:
     bool may_meet_mirror(std::int32_t u, std::int32_t v) const;

@@ -2,6 +2,7 @@
 
 #include "pfgeom/base/parallel.h"
 #include "pfgeom/base/sort_unique.h"
+#include "pfgeom/fit/patch_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,14 @@ Vec3 normal_at(const CollapseMesh& mesh, std::int32_t v) {
     return normalized(sum);
 }
 
+// Of a vertex and its neighbours.
+std::vector<std::int32_t> faces_around(const CollapseMesh& mesh, std::int32_t v) {
+    std::vector<std::int32_t> faces = mesh.faces_at(v);
+    for (const std::int32_t w : mesh.neighbours(v))
+        faces.insert(faces.end(), mesh.faces_at(w).begin(), mesh.faces_at(w).end());
+    return faces;
+}
+
 std::size_t steepest(const Vec3& n) {
     const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
     return x > y && x > z ? 0 : y > z ? 1 : 2;
@@ -57,27 +66,17 @@ class Snapper {
         return false;
     }
 
-    /// Measures finely; moves what is over the limit, and its neighbours, from grid point to grid point while
-    /// that makes the worst better.
-    std::vector<std::int32_t> mend(std::vector<std::int32_t> open, double limit, const Task& task) {
-        for (int round = 0; round < kMendingRounds && !open.empty(); ++round) {
-            std::vector<std::int32_t> failed;
-            for (const std::int32_t v : open) {
-                task.check();
-                if (mesh_.faces_at(v).empty() || holds(v, limit)) continue;
-                take_least_evil(v);
-                for (const std::int32_t w : mesh_.neighbours(v)) {
-                    if (holds(w, limit)) continue;
-                    take_least_evil(w);
-                    failed.push_back(w);
-                }
-                failed.push_back(v);
-            }
-            sort_unique(failed);
-            open = std::move(failed);
-            if (open.size() > kFewOpen + mesh_.face_count() / kFacesPerOpen) break;
+    /// If it is over the limit: moves it, and its neighbours that are then. Returns those that were.
+    std::vector<std::int32_t> mend(std::int32_t v, double limit) {
+        if (holds(v, limit)) return {};
+        take_least_evil(v);
+        std::vector<std::int32_t> moved{v};
+        for (const std::int32_t w : mesh_.neighbours(v)) {
+            if (holds(w, limit)) continue;
+            take_least_evil(w);
+            moved.push_back(w);
         }
-        return open;
+        return moved;
     }
 
   private:
@@ -229,34 +228,44 @@ std::vector<std::int32_t> vertices_over(const CollapseMesh& mesh, const Collapse
 
 bool snap_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Grid& grid,
                    bool persistent, const Task& task) {
-    Snapper snapper(mesh, error, limits, grid);
-    std::size_t left = 0, failed = 0;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
-        left += mesh.faces_at(static_cast<std::int32_t>(v)).empty() ? 0 : 1;
-    const std::size_t count = left;
-    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        const auto v = static_cast<std::int32_t>(i);
-        if (mesh.faces_at(v).empty()) continue;
-        task.check();
+    const std::vector<std::int32_t> vertices = mesh.vertices_left();
+    const std::size_t count = vertices.size();
+    PatchLoop loop(mesh, error);
+    for (const std::int32_t v : vertices) loop.add(mesh.faces_at(v));
+    std::vector<std::uint8_t> failed(count, 0);
+    loop.run(task, [&](std::size_t i) {
         double limit = limits.forward;  // rms: an even share of what the sum may still rise
         if (limits.metric == Metric::rms) {
-            limit = (limit * limit - error.mean_square()) * error.total_weight() / static_cast<double>(left);
+            limit =
+                (limit * limit - error.mean_square()) * error.total_weight() / static_cast<double>(count - i);
         }
-        failed += snapper.snap(v, limit) ? 0 : 1;
-        --left;
-    }
+        failed[i] = Snapper(mesh, error, limits, grid).snap(vertices[i], limit) ? 0 : 1;
+    });
     if (limits.metric != Metric::max) return true;
-    const bool fine = static_cast<double>(failed) <= 4 + kHopeless * static_cast<double>(count);
+    const auto failures = static_cast<double>(std::ranges::count(failed, 1));
+    const bool fine = failures <= 4 + kHopeless * static_cast<double>(count);
     if (!fine && !persistent) return false;
     error.look(kLook);
-    snapper.mend(vertices_over(mesh, error, limits, task), limits.forward, task);
+    mend_vertices(mesh, error, limits, grid, vertices_over(mesh, error, limits, task), task);
     return true;
 }
 
 std::vector<std::int32_t> mend_vertices(CollapseMesh& mesh, CollapseError& error,
                                         const CollapseLimits& limits, const Grid& grid,
                                         std::vector<std::int32_t> open, const Task& task) {
-    return Snapper(mesh, error, limits, grid).mend(std::move(open), limits.forward, task);
+    for (int round = 0; round < kMendingRounds && !open.empty(); ++round) {
+        PatchLoop loop(mesh, error);
+        for (const std::int32_t v : open) loop.add(faces_around(mesh, v));
+        std::vector<std::vector<std::int32_t>> moved(open.size());
+        loop.run(task, [&](std::size_t i) {
+            moved[i] = Snapper(mesh, error, limits, grid).mend(open[i], limits.forward);
+        });
+        open.clear();
+        for (const std::vector<std::int32_t>& some : moved) open.insert(open.end(), some.begin(), some.end());
+        sort_unique(open);
+        if (open.size() > kFewOpen + mesh.face_count() / kFacesPerOpen) break;
+    }
+    return open;
 }
 
 }  // namespace pfgeom

@@ -90,9 +90,7 @@ class Search {
         : surface_(surface), limit_(surface.limit()), fineness_(fineness) {}
 
     void look_along(const Corners& face, std::int32_t origin, std::vector<MissedPoint>& missed) {
-        const double longest =
-            std::sqrt(std::max({squared_norm(face[1] - face[0]), squared_norm(face[2] - face[1]),
-                                squared_norm(face[0] - face[2])}));
+        const double longest = std::sqrt(longest_squared(face));
         const double finest = std::max(fineness_.finest * limit_, fineness_.finest_part * longest);
         open_.assign({face});
         while (!open_.empty()) {

@@ -79,21 +79,33 @@ TEST(CurvedPart, RmsTakesFewerFacesThanTheSameMaximum) {
     EXPECT_LT(faces(object), faces(curved(mesh, tolerance)));
 }
 
-TEST(CurvedPart, DoesNotDependOnThreadsAndStopsWhenCancelled) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(2);
-    const MeshPartOptions options{1e-2, Metric::max, 1, true};
-    Task one, four, cancelled;
-    one.threads = 1;
-    four.threads = 4;
-    const auto a = std::get<MeshPart>(fit_mesh_part(mesh, options, one).shape);
-    const auto b = std::get<MeshPart>(fit_mesh_part(mesh, options, four).shape);
-    EXPECT_EQ(a.positions, b.positions);
-    EXPECT_EQ(a.faces, b.faces);
-    EXPECT_EQ(a.bulges, b.bulges);
+// Closed, creased, open, with an edge of three faces, and by the other metric.
+TEST(CurvedPart, DoesNotDependOnThreads) {
+    const auto fit = [](const TriangleMesh& mesh, double share, Metric metric, int threads) {
+        Task task;
+        task.threads = threads;
+        return std::get<MeshPart>(fit_mesh_part(mesh, {share * diagonal(mesh), metric, 1, true}, task).shape);
+    };
+    const auto compare = [&](const TriangleMesh& mesh, double share, Metric metric) {
+        SCOPED_TRACE(testing::Message() << mesh.faces.size() << " faces");
+        const MeshPart one = fit(mesh, share, metric, 1), three = fit(mesh, share, metric, 3);
+        EXPECT_EQ(one.positions, three.positions);
+        EXPECT_EQ(one.faces, three.faces);
+        EXPECT_EQ(one.bulges, three.bulges);
+    };
+    compare(shapes::bumpy_sphere(2), 4e-3, Metric::max);
+    compare(shapes::cylinder(), 1e-2, Metric::max);
+    compare(shapes::saddle(10), 3e-3, Metric::max);
+    compare(shapes::edge_fan(), 2e-2, Metric::max);
+    compare(shapes::bumpy_sphere(1), 1e-2, Metric::rms);
+}
+
+TEST(CurvedPart, StopsWhenCancelled) {
     CancelToken token;
     token.cancel();
+    Task cancelled;
     cancelled.cancel = &token;
-    EXPECT_THROW(fit_mesh_part(mesh, options, cancelled), Cancelled);
+    EXPECT_THROW(fit_mesh_part(shapes::bumpy_sphere(2), {1e-2, Metric::max, 1, true}, cancelled), Cancelled);
 }
 
 }  // namespace
