@@ -162,11 +162,10 @@ TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const O
     return mesh;
 }
 
-TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s) {
-    TriangleMesh copy = mesh;
-    for (Vec3& v : copy.vertices) v = s.apply(v);
-    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) turn_faces(copy);
-    return copy;
+TriangleMesh copy_of(TriangleMesh mesh, const Similarity& s) {
+    for (Vec3& v : mesh.vertices) v = s.apply(v);
+    if (dot(s.rows[0], cross(s.rows[1], s.rows[2])) < 0) turn_faces(mesh);
+    return mesh;
 }
 
 double border_snap(const Model& model) {

@@ -36,7 +36,7 @@ TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const O
 void turn_faces(TriangleMesh& mesh);
 
 /// A mirrored copy's faces are turned round.
-TriangleMesh copy_of(const TriangleMesh& mesh, const Similarity& s);
+TriangleMesh copy_of(TriangleMesh mesh, const Similarity& s);
 
 /// How far a border between materials may be from where it is, so that faces do not become slivers; in the
 /// mesh's units.

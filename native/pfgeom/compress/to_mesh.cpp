@@ -28,16 +28,22 @@ void check_options(const MeshOptions& options) {
 }
 
 // A few bytes can name many copies of a large mesh.
-void append_copy(const TriangleMesh& mesh, const Similarity& place, TriangleMesh& all, const Task& task) {
+void append_copy(TriangleMesh mesh, const Similarity& place, TriangleMesh& all, const Task& task) {
     if (mesh.faces.size() > Limits{}.polygon_faces - all.faces.size())
         throw LimitExceeded("the copies of the objects have more than 20 million faces");
     task.check();
-    TriangleMesh copy = copy_of(mesh, place);
+    TriangleMesh copy = copy_of(std::move(mesh), place);
     task.check();
     if (all.vertices.empty())
         all = std::move(copy);
     else
         append(copy, all);
+}
+
+void append_copies(TriangleMesh mesh, const Object& object, TriangleMesh& all, const Task& task) {
+    const std::vector<Similarity> copies = copies_of(object);
+    for (std::size_t c = 0; c + 1 < copies.size(); ++c) append_copy(mesh, copies[c], all, task);
+    append_copy(std::move(mesh), copies.back(), all, task);  // most objects have but one
 }
 
 // Every copy with the paint that is its own or that all share.
@@ -64,11 +70,11 @@ PaintedMesh mesh_of_objects(const Model& model, const ObjectsToMesh& all, bool p
         const Object& object = all.list[i];
         const Task part = part_of(task, at / count, (at + 1) / count);
         part.report(0, "polygonize");
-        const TriangleMesh mesh = mesh_in_place(model, all, object, part);
+        TriangleMesh mesh = mesh_in_place(model, all, object, part);
         if (painted) {
             append_painted(mesh, object, model.materials.objects[i], border_snap(model), result, part);
         } else {
-            for (const Similarity& place : copies_of(object)) append_copy(mesh, place, result.mesh, part);
+            append_copies(std::move(mesh), object, result.mesh, part);
         }
     }
     return result;

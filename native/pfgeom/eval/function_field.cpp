@@ -78,7 +78,8 @@ Tangent FunctionField::tangent(const Box& box) const {
             fine.hi += sum.hi;
         }
     }
-    return tangent_of(coarse, bend, fine, half);
+    coarse.value += (fine.lo + fine.hi) / 2;
+    return tangent_of(coarse, 0.5 * bend * squared_norm(half) + (fine.hi - fine.lo) / 2, half);
 }
 
 std::unique_ptr<const ScalarField> FunctionField::pruned(const Box& box) const {

@@ -26,7 +26,7 @@ struct Tangent {
 };
 
 /// Immutable and safe to use from many threads. Values at points come from one formula in one order, so every
-/// implementation path gives the same bits.
+/// implementation path gives the same bits (but for the sign of a zero).
 class ScalarField {
   public:
     virtual ~ScalarField() = default;
@@ -45,6 +45,16 @@ class ScalarField {
     /// values[i] = value(points[i]).
     virtual void values(std::span<const Vec3> points, std::span<double> values) const {
         for (std::size_t i = 0; i < points.size(); ++i) values[i] = value(points[i]);
+    }
+    /// The same with the gradients.
+    virtual void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
+                                      std::span<Vec3> gradients) const {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            values[i] = value_and_gradient(points[i], gradients[i]);
+    }
+    /// tangents[i] = tangent(boxes[i]).
+    virtual void tangents(std::span<const Box> boxes, std::span<Tangent> tangents) const {
+        for (std::size_t i = 0; i < boxes.size(); ++i) tangents[i] = tangent(boxes[i]);
     }
 };
 

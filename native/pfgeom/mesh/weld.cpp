@@ -91,6 +91,7 @@ std::int64_t remove_duplicates(std::vector<Triangle>& faces) {
 
 void compact_vertices(TriangleMesh& mesh) {
     const std::vector<bool> used = used_vertices(mesh);
+    if (std::find(used.begin(), used.end(), false) == used.end()) return;
     std::vector<std::int32_t> map(mesh.vertices.size(), -1);
     std::int32_t next = 0;
     for (std::size_t row = 0; row < mesh.vertices.size(); ++row)

@@ -24,28 +24,35 @@ class CubeField {
         return false;
     }
 
-    double value(const Vec3& p) const { return guarded(std::min(field_.value(p), to_faces(p))); }
-    /// Points on the cube are outside, so that no surface leaves it.
+    double value(const Vec3& p) const { return closed(p, field_.value(p)); }
     double value(const LatticePoint& p) const { return lattice_value(p, value(position(p))); }
     double value_and_gradient(const Vec3& p, Vec3& gradient) const {
-        const double inner = field_.value_and_gradient(p, gradient), faces = to_faces(p);
-        if (!(faces < inner)) return guarded(inner);
-        gradient = {};
-        for (int axis = 0; axis < 3; ++axis)
-            if (faces == 1 - std::abs(p[axis])) {
-                gradient[axis] = p[axis] < 0 ? 1 : -1;
-                break;
-            }
-        return faces;
+        return closed(p, field_.value_and_gradient(p, gradient), gradient);
     }
     double value_and_gradient(const LatticePoint& p, Vec3& gradient) const {
         return lattice_value(p, value_and_gradient(position(p), gradient));
     }
+    /// The same of many points, sooner.
+    void values(std::span<const Vec3> points, std::span<double> values) const {
+        field_.values(points, values);
+        for (std::size_t i = 0; i < points.size(); ++i) values[i] = closed(points[i], values[i]);
+    }
+    void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
+                              std::span<Vec3> gradients) const {
+        field_.values_and_gradients(points, values, gradients);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            values[i] = closed(points[i], values[i], gradients[i]);
+    }
+    /// A lattice point's value, given that of its position: points on the cube are outside, so that no
+    /// surface leaves it.
+    double lattice_value(const LatticePoint& p, double v) const {
+        return v >= 0 && on_cube(p) ? -std::numeric_limits<double>::min() : v;
+    }
     Box box(const LatticePoint& low, std::int32_t size) const {
         return {position(low), position(cube_corner(low, size, 7))};
     }
-    Tangent tangent(const LatticePoint& low, std::int32_t size) const {
-        return field_.tangent(box(low, size));
+    void tangents(std::span<const Box> boxes, std::span<Tangent> tangents) const {
+        field_.tangents(boxes, tangents);
     }
     std::unique_ptr<const ScalarField> pruned(const LatticePoint& low, std::int32_t size) const {
         return field_.pruned(box(low, size));
@@ -66,8 +73,18 @@ class CubeField {
         return 1 - std::max(std::max(std::abs(p.x), std::abs(p.y)), std::abs(p.z));
     }
     static double guarded(double v) { return v == v ? v : -1.0; }  // not a number counts as outside
-    double lattice_value(const LatticePoint& p, double v) const {
-        return v >= 0 && on_cube(p) ? -std::numeric_limits<double>::min() : v;
+    // Of a point with its value in the field.
+    static double closed(const Vec3& p, double inner) { return guarded(std::min(inner, to_faces(p))); }
+    static double closed(const Vec3& p, double inner, Vec3& gradient) {
+        const double faces = to_faces(p);
+        if (!(faces < inner)) return guarded(inner);
+        gradient = {};
+        for (int axis = 0; axis < 3; ++axis)
+            if (faces == 1 - std::abs(p[axis])) {
+                gradient[axis] = p[axis] < 0 ? 1 : -1;
+                break;
+            }
+        return faces;
     }
 
     const ScalarField& field_;

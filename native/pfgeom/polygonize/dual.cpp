@@ -15,7 +15,9 @@
 #include "pfgeom/polygonize/dual.h"
 
 #include "pfgeom/base/sort_unique.h"
+#include "pfgeom/polygonize/crossed_edges.h"
 #include "pfgeom/polygonize/leaf_surface.h"
+#include "pfgeom/polygonize/plain_leaf.h"
 #include "pfgeom/polygonize/project.h"
 
 #include <map>
@@ -25,16 +27,14 @@ namespace pfgeom {
 namespace {
 
 constexpr std::size_t kChunk = 64;  // leaves or vertices a job
+
+// Most leaves have one sheet, and there are about as many crossed edges as sheets: room for a little more.
+std::size_t with_spare(std::size_t leaves) {
+    return leaves + leaves / 16;
+}
+
 // A vertex may leave its cell, but not by so much that it folds over the next cell's.
 constexpr double kReach = 0.75;  // of the cell's side, from the mean of the cell's crossings
-
-struct CrossedEdge {
-    LatticeEdge edge;
-    std::int32_t length = 0;
-    std::array<std::int32_t, 4> vertex{-1, -1, -1, -1};  // by quadrant
-    std::uint8_t own = 0;                                // quadrants whose leaf has the edge undivided
-    bool rising = false;
-};
 
 // Where a vertex starts from, and a crossed edge to fall back to.
 struct Seed {
@@ -46,19 +46,24 @@ struct Seed {
 
 class DualMesher {
   public:
-    DualMesher(const Octree& octree, double accuracy, std::size_t max_faces, const Task& task)
-        : octree_(octree), accuracy_(accuracy), max_faces_(max_faces), task_(task) {}
+    DualMesher(Octree& octree, const DualOptions& options, const Task& task)
+        : octree_(octree),
+          options_(options),
+          task_(task),
+          leaves_(octree.mixed_leaves()),
+          edges_(octree.samples(), with_spare(leaves_.size()), task) {
+        seeds_.reserve(with_spare(leaves_.size()));
+        faces_.reserve(2 * with_spare(leaves_.size()));
+    }
 
     SurfaceMesh run() {
-        std::vector<std::int32_t> leaves;
-        for (std::size_t i = 0; i < octree_.nodes().size(); ++i)
-            if (octree_.nodes()[i].leaf() && octree_.nodes()[i].mixed())
-                leaves.push_back(static_cast<std::int32_t>(i));
-        for (; !leaves.empty(); leaves = leaves_missing()) add_leaves(leaves);
+        for (; !leaves_.empty(); leaves_ = leaves_missing()) add_leaves(leaves_);
+        edges_.stop_finding();
+        octree_.free_cells();
         task_.report(0.5, "cells");
-        for (std::size_t i = 0; i < edges_.size(); ++i) {
+        for (std::size_t i = 0; i < edges_.list().size(); ++i) {
             if (i % 1024 == 0) task_.check();
-            add_polygon(edges_[i]);
+            add_polygon(edges_.list()[i]);
         }
         place_vertices();
         mesh_.set_faces(std::move(faces_), {});
@@ -68,44 +73,25 @@ class DualMesher {
   private:
     void add_leaves(const std::vector<std::int32_t>& leaves);
     void add_sheets(const OctreeNode& leaf, const LeafSheets& sheets);
-    std::int32_t edge_row(const LatticeEdge& edge);
+    bool is_plain(const OctreeNode& leaf) const;
+    void add_plain_sheets(const OctreeNode& leaf);
     std::vector<std::int32_t> leaves_missing() const;
     void add_polygon(const CrossedEdge& e);
     void add_triangle(std::int32_t a, std::int32_t b, std::int32_t c);
     void place_vertices();
+    void place_vertices(std::size_t from, std::size_t to);
     SurfacePoint fallback(const Seed& seed) const;
 
-    const Octree& octree_;
-    double accuracy_;
-    std::size_t max_faces_;
+    Octree& octree_;
+    const DualOptions& options_;
     const Task& task_;
-    std::vector<CrossedEdge> edges_;
-    std::vector<std::int32_t> slots_;                   // open addressing over edges_, as in Samples
+    std::vector<std::int32_t> leaves_;  // to be looked at
+    CrossedEdges edges_;
     std::map<std::uint64_t, std::int32_t> piece_rows_;  // (edge, direction) of a face's piece -> vertex
     std::vector<Seed> seeds_;
     std::vector<Triangle> faces_;
     SurfaceMesh mesh_;
 };
-
-std::int32_t DualMesher::edge_row(const LatticeEdge& edge) {
-    const auto slot_of = [this](std::uint64_t key) {
-        std::size_t slot = hash_key(key) & (slots_.size() - 1);
-        while (slots_[slot] >= 0 && edges_[slots_[slot]].edge.key() != key)
-            slot = (slot + 1) & (slots_.size() - 1);
-        return slot;
-    };
-    if (2 * edges_.size() >= slots_.size()) {
-        slots_.assign(slots_.empty() ? 1024 : 2 * slots_.size(), -1);
-        for (std::size_t i = 0; i < edges_.size(); ++i)
-            slots_[slot_of(edges_[i].edge.key())] = static_cast<std::int32_t>(i);
-    }
-    std::int32_t& row = slots_[slot_of(edge.key())];
-    if (row < 0) {
-        row = static_cast<std::int32_t>(edges_.size());
-        edges_.push_back({.edge = edge});
-    }
-    return row;
-}
 
 void DualMesher::add_leaves(const std::vector<std::int32_t>& leaves) {
     constexpr std::size_t kBatch = 256 * kChunk;  // bounds the memory of what waits to be merged
@@ -113,12 +99,47 @@ void DualMesher::add_leaves(const std::vector<std::int32_t>& leaves) {
         std::vector<LeafSheets> found(std::min(kBatch, leaves.size() - batch));
         parallel_chunks(found.size(), kChunk, task_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                find_sheets(octree_, octree_.nodes()[leaves[batch + i]], found[i]);
+                if (const OctreeNode& leaf = octree_.nodes()[leaves[batch + i]]; !is_plain(leaf))
+                    find_sheets(octree_, leaf, found[i]);
         });
-        for (std::size_t i = 0; i < found.size(); ++i)
-            add_sheets(octree_.nodes()[leaves[batch + i]], found[i]);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const OctreeNode& leaf = octree_.nodes()[leaves[batch + i]];
+            if (is_plain(leaf))
+                add_plain_sheets(leaf);
+            else
+                add_sheets(leaf, found[i]);
+        }
         task_.check();
     }
+}
+
+bool DualMesher::is_plain(const OctreeNode& leaf) const {
+    return leaf.mixed() && octree_.plain(leaf) && !plain_leaf(leaf.inside).ambiguous;
+}
+
+void DualMesher::add_plain_sheets(const OctreeNode& leaf) {
+    const PlainLeaf& plain = plain_leaf(leaf.inside);
+    const Octree::Corners& corners = octree_.corners(leaf);
+    const std::int32_t size = octree_.size_at(leaf.depth);
+    const auto first = static_cast<std::int32_t>(seeds_.size());
+    seeds_.resize(seeds_.size() + plain.sheets, {.point = {}, .size = size, .block = leaf.block});
+    std::array<int, 4> uses{};
+    for (const PlainCrossing& c : std::span(plain.crossing).first(plain.crossings)) {
+        const double low = octree_.samples().value(corners[c.low]);
+        const double high = octree_.samples().value(corners[c.high]);
+        const LatticeEdge edge{cube_corner(leaf.corner, size, c.low), c.axis};
+        const std::int32_t row = edges_.find_or_add(edge, corners[c.low]);
+        CrossedEdge& e = edges_[row];
+        e.length = size;
+        e.rising = high >= 0;
+        e.vertex[c.quadrant] = first + c.sheet;
+        e.own |= static_cast<std::uint8_t>(1U << c.quadrant);
+        Seed& seed = seeds_[first + c.sheet];
+        seed.point += crossing_point(octree_.field(), edge, size, low, high);
+        seed.edge = row;
+        ++uses[c.sheet];
+    }
+    for (std::int32_t s = 0; s < plain.sheets; ++s) seeds_[first + s].point *= 1.0 / uses[s];
 }
 
 void DualMesher::add_sheets(const OctreeNode& leaf, const LeafSheets& sheets) {
@@ -126,7 +147,7 @@ void DualMesher::add_sheets(const OctreeNode& leaf, const LeafSheets& sheets) {
     seeds_.resize(seeds_.size() + sheets.count);
     std::vector<int> uses(sheets.count);
     for (const Crossing& c : sheets.crossings) {
-        const std::int32_t row = edge_row(c.edge);
+        const std::int32_t row = edges_.find_or_add(c.edge);
         CrossedEdge& e = edges_[row];
         e.length = c.length;
         e.rising = c.rising;
@@ -146,14 +167,14 @@ void DualMesher::add_sheets(const OctreeNode& leaf, const LeafSheets& sheets) {
                             b = piece.b.key() << 2 | piece.b_direction;
         if (piece_rows_.contains(a)) continue;  // the other leaf brought it
         piece_rows_[a] = piece_rows_[b] = static_cast<std::int32_t>(seeds_.size());
-        seeds_.push_back({piece.point, piece.size, edge_row(piece.a)});
+        seeds_.push_back({piece.point, piece.size, edges_.find_or_add(piece.a)});
     }
 }
 
 // Leaves at crossed edges that have not been looked at: large ones whose own corners have one sign.
 std::vector<std::int32_t> DualMesher::leaves_missing() const {
     std::vector<std::int32_t> missing;
-    for (const CrossedEdge& e : edges_) {
+    for (const CrossedEdge& e : edges_.list()) {
         for (int q = 0; q < 4; ++q) {
             if (e.vertex[q] >= 0) continue;
             const LatticePoint cell =
@@ -167,8 +188,9 @@ std::vector<std::int32_t> DualMesher::leaves_missing() const {
 }
 
 void DualMesher::add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
-    if (faces_.size() >= max_faces_)
-        throw LimitExceeded("polygonize: more than max_faces = " + std::to_string(max_faces_) + " faces");
+    if (faces_.size() >= options_.max_faces)
+        throw LimitExceeded("polygonize: more than max_faces = " + std::to_string(options_.max_faces) +
+                            " faces");
     faces_.push_back({a, b, c});
 }
 
@@ -204,7 +226,7 @@ void DualMesher::add_polygon(const CrossedEdge& e) {
         Vec3 centre;
         for (std::size_t i = 0; i < n; ++i) centre += at(i) * (1.0 / static_cast<double>(n));
         const auto hub = static_cast<std::int32_t>(seeds_.size());
-        seeds_.push_back({centre, e.length, static_cast<std::int32_t>(&e - edges_.data())});
+        seeds_.push_back({centre, e.length, static_cast<std::int32_t>(&e - edges_.list().data())});
         for (std::size_t i = 0; i < n; ++i) add_triangle(ring[i], ring[(i + 1) % n], hub);
     }
 }
@@ -219,24 +241,37 @@ SurfacePoint DualMesher::fallback(const Seed& seed) const {
 }
 
 void DualMesher::place_vertices() {
-    mesh_.position.resize(seeds_.size());
-    mesh_.normal.resize(seeds_.size());
+    grow(mesh_.position, seeds_.size(), task_);
+    if (options_.normals) grow(mesh_.normal, seeds_.size(), task_);
     parallel_chunks(seeds_.size(), kChunk, task_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Seed& seed = seeds_[i];
-            SurfacePoint p;
-            const double reach = kReach * seed.size * octree_.field().step();
-            if (!project(octree_.field(seed.block), seed.point, reach, accuracy_, p)) p = fallback(seed);
-            mesh_.position[i] = p.position;
-            mesh_.normal[i] = p.normal;
-        }
+        for_runs(
+            begin, end, [&](std::size_t i) { return seeds_[i].block; },
+            [&](std::size_t from, std::size_t to) { place_vertices(from, to); });
     });
+}
+
+// Of one block.
+void DualMesher::place_vertices(std::size_t from, std::size_t to) {
+    const CubeField field = octree_.field(seeds_[from].block);
+    std::array<Vec3, kChunk> points, gradients;
+    std::array<double, kChunk> values;
+    for (std::size_t i = from; i < to; ++i) points[i - from] = seeds_[i].point;
+    field.values_and_gradients(std::span(points).first(to - from), values, gradients);
+    for (std::size_t i = from; i < to; ++i) {
+        const Seed& seed = seeds_[i];
+        const Jet start{values[i - from], gradients[i - from]};
+        SurfacePoint p;
+        const double reach = kReach * seed.size * field.step();
+        if (!project(field, seed.point, start, reach, options_.accuracy, p)) p = fallback(seed);
+        mesh_.position[i] = p.position;
+        if (options_.normals) mesh_.normal[i] = p.normal;
+    }
 }
 
 }  // namespace
 
-SurfaceMesh dual_mesh(const Octree& octree, double accuracy, std::size_t max_faces, const Task& task) {
-    return DualMesher(octree, accuracy, max_faces, task).run();
+SurfaceMesh dual_mesh(Octree& octree, const DualOptions& options, const Task& task) {
+    return DualMesher(octree, options, task).run();
 }
 
 }  // namespace pfgeom

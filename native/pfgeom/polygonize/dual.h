@@ -6,7 +6,13 @@
 
 namespace pfgeom {
 
-/// Closed 2-manifold, vertices on the zero set to within about `accuracy`.
-SurfaceMesh dual_mesh(const Octree& octree, double accuracy, std::size_t max_faces, const Task& task);
+struct DualOptions {
+    double accuracy = 0;  ///< of the vertices: how far they may be from the zero set, about
+    std::size_t max_faces = 0;
+    bool normals = true;  ///< are they wanted?
+};
+
+/// A closed 2-manifold. The octree's cells are freed on the way.
+SurfaceMesh dual_mesh(Octree& octree, const DualOptions& options, const Task& task);
 
 }  // namespace pfgeom

@@ -110,10 +110,7 @@ class SheetFinder {
         c.rising = high >= 0;
         c.quadrants = quadrants(edge);
         c.own = length == size_ && (c.quadrants & (c.quadrants - 1)) == 0;
-        const Vec3 a = octree_.field().position(edge.low);
-        const Vec3 b = octree_.field().position(moved(edge.low, edge.axis, length));
-        const double t = low / (low - high);
-        c.point = t >= 0 && t <= 1 ? a + (b - a) * t : (a + b) * 0.5;
+        c.point = crossing_point(octree_.field(), edge, length, low, high);
         out_.crossings.push_back(c);
         return c.sheet;
     }
@@ -178,6 +175,14 @@ class SheetFinder {
 };
 
 }  // namespace
+
+Vec3 crossing_point(const CubeField& field, const LatticeEdge& edge, std::int32_t length, double low,
+                    double high) {
+    const Vec3 a = field.position(edge.low);
+    const Vec3 b = field.position(moved(edge.low, edge.axis, length));
+    const double t = low / (low - high);
+    return t >= 0 && t <= 1 ? a + (b - a) * t : (a + b) * 0.5;
+}
 
 void find_sheets(const Octree& octree, const OctreeNode& leaf, LeafSheets& sheets) {
     SheetFinder(octree, leaf, sheets).run();

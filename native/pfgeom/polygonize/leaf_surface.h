@@ -34,6 +34,10 @@ struct LeafSheets {
     std::vector<FacePiece> pieces;  ///< of faces with more than one piece of surface
 };
 
+/// Where the surface crosses an edge with the values `low` and `high` at its ends, by linear interpolation.
+Vec3 crossing_point(const CubeField& field, const LatticeEdge& edge, std::int32_t length, double low,
+                    double high);
+
 /// Sheets of `leaf`, whatever the sizes of its neighbours.
 void find_sheets(const Octree& octree, const OctreeNode& leaf, LeafSheets& sheets);
 

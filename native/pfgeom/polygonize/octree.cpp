@@ -9,21 +9,9 @@
 #include "pfgeom/polygonize/octree.h"
 
 #include <algorithm>
-#include <string>
 
 namespace pfgeom {
 namespace {
-
-constexpr std::size_t kChunk = 128;  // cells or points a job: some 0.2 ms, and cancel polls between jobs
-
-constexpr std::size_t kMostCells = 2'000'000'000;  // rows are 32 bit
-
-// Depth of the cells within which the field is pruned. On igea's hierarchy in cells of 1/1024 depths of 5, 6,
-// 7 take 11.7, 10.7, 10.4 s and 1.28, 1.31, 1.59 GB; in cells of 1/256 1.2, 1.3, 1.9 s and 0.16, 0.23, 0.50
-// GB.
-constexpr int kBlockDepth = 6;
-// A parent's tangent serves its children if it is off by no more than this share of what its slope makes.
-constexpr double kFlat = 0.25;
 
 // Normals further apart than 60° within half a cell: its surface is no height field, and in a cell without a
 // change of sign a small sheet may hide (a closed sheet turns its normals all around).
@@ -53,26 +41,15 @@ constexpr auto kOneSheet = [] {
     return table;
 }();
 
-Vec3 normal_of(const Sample& s) {
-    return {s.normal[0], s.normal[1], s.normal[2]};
+Vec3 vector_of(const Samples::Normal& n) {
+    return {n[0], n[1], n[2]};
 }
 
-// Is a corner's normal further from `axis` than the cosine allows? Where a gradient vanishes, too.
-bool spread(const std::array<const Sample*, 8>& corners, const Vec3& axis, double cosine) {
-    for (const Sample* corner : corners)
-        if (!(dot(normal_of(*corner), axis) >= cosine)) return true;
+// Is one of the normals further from `axis` than the cosine allows? Where a gradient vanishes, too.
+bool spread(const std::array<Vec3, 8>& normals, const Vec3& axis, double cosine) {
+    for (const Vec3& normal : normals)
+        if (!(dot(normal, axis) >= cosine)) return true;
     return false;
-}
-
-void evaluate(const CubeField& field, Sample& sample, bool with_normal) {
-    if (!with_normal) {
-        sample.value = field.value(sample.point);
-        return;
-    }
-    Vec3 gradient;
-    sample.value = field.value_and_gradient(sample.point, gradient);
-    const Vec3 n = is_finite(gradient) ? normalized(gradient) : Vec3{};
-    sample.normal = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
 }
 
 }  // namespace
@@ -100,15 +77,28 @@ bool Octree::contains(const LatticePoint& cell) const {
     return true;
 }
 
+std::vector<std::int32_t> Octree::mixed_leaves() const {
+    std::vector<std::int32_t> leaves;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (i % 1024 == 0) task_.check();
+        if (nodes_[i].leaf() && nodes_[i].mixed()) leaves.push_back(static_cast<std::int32_t>(i));
+    }
+    return leaves;
+}
+
+void Octree::free_cells() {
+    std::vector<OctreeNode>().swap(nodes_);
+    task_.check();
+    std::vector<Corners>().swap(corners_);
+    task_.check();
+    samples_ = {};
+    task_.check();
+}
+
 bool Octree::is_split(const LatticePoint& corner, int depth) const {
     if (depth >= deepest_ || !contains(corner)) return false;
     const OctreeNode& node = nodes_[find(corner, depth)];
     return node.depth == depth && !node.leaf();
-}
-
-double Octree::value(const LatticePoint& p) const {
-    const Sample* sample = samples_.find(p);
-    return sample ? sample->value : field_.value(p);
 }
 
 void Octree::refine() {
@@ -116,132 +106,66 @@ void Octree::refine() {
     if (nodes_[0].may_cross) cells.push_back(0);
     for (int depth = 0; !cells.empty(); ++depth) {
         task_.report(0.4 * depth / (options_.max_depth + 1), "cells");
-        if (depth >= options_.min_depth) sample_corners(cells, depth < options_.max_depth);
-        if (depth == options_.max_depth) break;
-        cells = split(depth < options_.min_depth ? cells : cells_to_split(cells));
-    }
-}
-
-// Gives the parents children; returns those that the surface can cross.
-std::vector<std::int32_t> Octree::split(const std::vector<std::int32_t>& parents) {
-    const std::size_t first = nodes_.size(), total = first + 8 * parents.size();
-    if (total > std::min(options_.max_cells, kMostCells))
-        throw LimitExceeded("polygonize: more than max_cells = " + std::to_string(options_.max_cells) +
-                            " cells");
-    nodes_.resize(total);
-    add_blocks(parents);
-    parallel_chunks(parents.size(), kChunk / 8, task_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            add_children(nodes_[parents[i]], static_cast<std::int32_t>(first + 8 * i));
-    });
-    std::vector<std::int32_t> survivors;
-    for (std::size_t i = first; i < total; ++i) {
-        deepest_ = std::max<int>(deepest_, nodes_[i].depth);
-        if (nodes_[i].may_cross) survivors.push_back(static_cast<std::int32_t>(i));
-    }
-    return survivors;
-}
-
-void Octree::add_children(OctreeNode& parent, std::int32_t first) {
-    parent.children = first;
-    const CubeField local = field(parent.block);
-    const std::int32_t size = size_at(parent.depth + 1);
-    const Tangent tangent = local.tangent(parent.corner, 2 * size);
-    const double half = size * local.step() / 2;
-    const Vec3 extent{half, half, half};
-    const Vec3& g = tangent.gradient;
-    const bool flat = tangent.error <= kFlat * half * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z));
-    for (int k = 0; k < 8; ++k) {
-        OctreeNode& child = nodes_[first + k];
-        child.depth = static_cast<std::uint8_t>(parent.depth + 1);
-        child.block = parent.block;
-        child.corner = cube_corner(parent.corner, size, k);
-        const Vec3 offset{k & 1 ? half : -half, k & 2 ? half : -half, k & 4 ? half : -half};
-        child.may_cross = flat ? local.may_cross(child.corner, size, tangent.over(offset, extent))
-                               : local.may_cross(child.corner, size);
-    }
-}
-
-// Of the cells, those in which the field is pruned.
-void Octree::add_blocks(const std::vector<std::int32_t>& cells) {
-    std::vector<std::int32_t> chosen;
-    for (const std::int32_t cell : cells)
-        if (nodes_[cell].depth == kBlockDepth) chosen.push_back(cell);
-    const std::size_t first = blocks_.size();
-    blocks_.resize(first + chosen.size());
-    parallel_chunks(chosen.size(), kChunk / 8, task_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            OctreeNode& node = nodes_[chosen[i]];
-            blocks_[first + i] = field_.pruned(node.corner, size_at(node.depth));
-            if (blocks_[first + i]) node.block = static_cast<std::int32_t>(first + i);
+        if (depth < options_.min_depth) {
+            cells = split(std::move(cells));
+            continue;
         }
-    });
-}
-
-void Octree::sample_corners(const std::vector<std::int32_t>& cells, bool with_normals) {
-    const std::size_t first = samples_.size();
-    std::vector<std::array<std::int32_t, 8>> rows(cells.size());
-    std::vector<std::int32_t> blocks;  // of the new samples
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (i % 1024 == 0) task_.check();
-        const OctreeNode& node = nodes_[cells[i]];
-        for (int k = 0; k < 8; ++k)
-            rows[i][k] = samples_.find_or_add(cube_corner(node.corner, size_at(node.depth), k));
-        blocks.resize(samples_.size() - first, node.block);
-    }
-    parallel_chunks(samples_.size() - first, kChunk, task_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            evaluate(field(blocks[i]), samples_[first + i], with_normals);
-    });
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        OctreeNode& node = nodes_[cells[i]];
-        node.sampled = true;
-        node.inside = 0;
-        for (int k = 0; k < 8; ++k)
-            if (samples_[rows[i][k]].value >= 0) node.inside |= static_cast<std::uint8_t>(1 << k);
+        if (depth == options_.max_depth) {
+            sample_corners(cells);
+            break;
+        }
+        const std::vector<Corners> corners = sample_corners(cells, true);
+        cells = split(cells_to_split(cells, corners));
     }
 }
 
 // The cells (above max_depth, with sampled corners) that one more level would serve better. Their centres are
 // kept as samples, since they become corners.
-std::vector<std::int32_t> Octree::cells_to_split(const std::vector<std::int32_t>& cells) {
-    std::vector<Sample> centres(cells.size());
+std::vector<std::int32_t> Octree::cells_to_split(const std::vector<std::int32_t>& cells,
+                                                 const std::vector<Corners>& corners) {
+    std::vector<Centre> centres(cells.size());
     std::vector<char> wanted(cells.size());
     parallel_chunks(cells.size(), kChunk, task_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) wanted[i] = should_split(nodes_[cells[i]], centres[i]);
+        for (std::size_t i = begin; i < end; ++i)
+            wanted[i] = should_split(nodes_[cells[i]], corners[i], centres[i]);
     });
     std::vector<std::int32_t> chosen;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (!wanted[i]) continue;
         chosen.push_back(cells[i]);
-        samples_[samples_.find_or_add(centres[i].point)] = centres[i];
+        const std::int32_t row = samples_.find_or_add(centres[i].point);
+        samples_.add_normals();
+        samples_.set(static_cast<std::size_t>(row), centres[i].value, centres[i].normal);
     }
     return chosen;
 }
 
 // If so, `centre` is filled in.
-bool Octree::should_split(const OctreeNode& node, Sample& centre) const {
-    std::array<const Sample*, 8> corners{};
+bool Octree::should_split(const OctreeNode& node, const Corners& corners, Centre& centre) const {
+    std::array<Vec3, 8> normals;
     Vec3 mean;
     for (int k = 0; k < 8; ++k) {
-        corners[k] = samples_.find(cube_corner(node.corner, size_at(node.depth), k));
-        mean += normal_of(*corners[k]);
+        normals[k] = vector_of(samples_.normal(corners[k]));
+        mean += normals[k];
     }
-    if (!node.mixed() && !spread(corners, normalized(mean), kTurning)) return false;  // no room for a sheet
+    if (!node.mixed() && !spread(normals, normalized(mean), kTurning)) return false;  // no room for a sheet
+    Vec3 gradient;
     centre.point = cube_corner(node.corner, size_at(node.depth + 1), 7);
-    evaluate(field(node.block), centre, true);
-    if (spread(corners, normal_of(centre), kWide)) return true;
+    centre.value = field(node.block).value_and_gradient(centre.point, gradient);
+    centre.normal = Samples::normal_of(gradient);
+    if (spread(normals, vector_of(centre.normal), kWide)) return true;
     if (!node.mixed()) return (node.inside == 255) != (centre.value >= 0);
-    return !kOneSheet[node.inside] || chord(corners, centre) > chord_;
+    return !kOneSheet[node.inside] || chord(node, normals, centre) > chord_;
 }
 
 // For a chord from the centre to a corner, normals n and n' at its ends and the vector d between them, the
 // arc's height is |(n' - n)·d| / 8 up to third order; an edge of the mesh is some 1.4 times as long.
-double Octree::chord(const std::array<const Sample*, 8>& corners, const Sample& centre) const {
+double Octree::chord(const OctreeNode& node, const std::array<Vec3, 8>& normals, const Centre& centre) const {
     double highest = 0;
-    for (const Sample* corner : corners) {
-        const Vec3 d = field_.position(corner->point) - field_.position(centre.point);
-        highest = std::max(highest, std::abs(dot(normal_of(*corner) - normal_of(centre), d)) / 4);
+    for (int k = 0; k < 8; ++k) {
+        const Vec3 d =
+            field_.position(cube_corner(node.corner, size_at(node.depth), k)) - field_.position(centre.point);
+        highest = std::max(highest, std::abs(dot(normals[k] - vector_of(centre.normal), d)) / 4);
     }
     return highest;
 }

@@ -15,7 +15,7 @@ void Octree::balance() {
             }
             sort_unique(coarse);
             if (coarse.empty()) break;
-            sample_corners(split(coarse), false);
+            sample_corners(split(coarse));
         }
     }
 }

@@ -37,12 +37,14 @@ TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& optio
     check(options);
     const CubeField cube(field, options.max_depth);
     const double accuracy = kAccuracy * options.tolerance;
+    const bool adaptive = options.min_depth < options.max_depth;
     SurfaceMesh mesh;
     {
-        const Octree octree(cube, options, kCellChord * options.tolerance, task);
-        mesh = dual_mesh(octree, accuracy, options.max_faces, task);
+        Octree octree(cube, options, kCellChord * options.tolerance, task);
+        mesh = dual_mesh(octree, {accuracy, options.max_faces, adaptive}, task);
     }
-    if (options.min_depth < options.max_depth) {
+    task.check();
+    if (adaptive) {
         const AdaptOptions adapt_options{.edge_tolerance = kEdgeChord * options.tolerance,
                                          .face_tolerance = options.tolerance,
                                          .accuracy = accuracy,
@@ -52,7 +54,7 @@ TriangleMesh polygonize(const ScalarField& field, const PolygonizeOptions& optio
         adapt(cube, adapt_options, mesh, task);
         mesh.compact();
     }
-    TriangleMesh result{std::move(mesh.position), mesh.faces()};
+    TriangleMesh result{std::move(mesh.position), mesh.take_faces()};
     compact_vertices(result);
     task.report(1, "triangles");
     return result;

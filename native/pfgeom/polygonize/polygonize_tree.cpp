@@ -110,7 +110,7 @@ LabelledMesh labelled_mesh_of(const CutSolid& solid, const PolygonizeOptions& op
 
 TriangleMesh polygonize(const CutSolid& solid, const PolygonizeOptions& options, const Task& task) {
     LabelledMesh mesh = labelled_mesh_of(solid, options, task);
-    return without_bits({std::move(mesh.mesh.position), mesh.mesh.faces()}, kBit * options.tolerance);
+    return without_bits({std::move(mesh.mesh.position), mesh.mesh.take_faces()}, kBit * options.tolerance);
 }
 
 TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, const Task& task) {

@@ -9,10 +9,17 @@ constexpr int kBisections = 30;  // 2^-30 of a cell's edge
 }  // namespace
 
 bool project(const CubeField& field, const Vec3& start, double size, double accuracy, SurfacePoint& result) {
+    Jet jet;
+    jet.value = field.value_and_gradient(start, jet.gradient);
+    return project(field, start, jet, size, accuracy, result);
+}
+
+bool project(const CubeField& field, const Vec3& start, const Jet& at_start, double size, double accuracy,
+             SurfacePoint& result) {
     Vec3 p = start;
+    auto [value, gradient] = at_start;
     for (int i = 0; i < kSteps; ++i) {
-        Vec3 gradient;
-        const double value = field.value_and_gradient(p, gradient);
+        if (i > 0) value = field.value_and_gradient(p, gradient);
         const double steepness = squared_norm(gradient);
         const Vec3 step = gradient * (value / steepness);
         p -= step;

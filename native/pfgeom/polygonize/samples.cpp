@@ -14,35 +14,33 @@ struct Place {
 // all corners of such groups.
 Place place_of(const LatticePoint& p) {
     const int level = std::countr_zero(static_cast<std::uint32_t>(p[0] | p[1] | p[2]) | 1U << kDeepest);
-    const std::int32_t size = 2 << level;
+    const std::int32_t size = 4 << level;
     const LatticePoint corner{(p[0] & -size) | size / 2, p[1] & -size, p[2] & -size};
-    return {point_key(corner), static_cast<std::size_t>((p[0] >> level & 1) | (p[1] >> level & 1) << 1 |
-                                                        (p[2] >> level & 1) << 2)};
+    return {point_key(corner), static_cast<std::size_t>((p[0] >> level & 3) | (p[1] >> level & 3) << 2 |
+                                                        (p[2] >> level & 3) << 4)};
 }
 
 }  // namespace
 
 std::int32_t Samples::find_or_add(const LatticePoint& p) {
     const Place place = place_of(p);
-    std::int32_t& group = groups_[place.group];
+    std::int32_t& group = table_[place.group];
     if (group < 0) {
-        group = static_cast<std::int32_t>(index_.size());
-        index_.emplace_back().fill(-1);
+        group = static_cast<std::int32_t>(groups_.size());
+        groups_.emplace_back().fill(-1);
     }
-    std::int32_t& row = index_[static_cast<std::size_t>(group)][place.within];
+    std::int32_t& row = groups_[static_cast<std::size_t>(group)][place.within];
     if (row < 0) {
-        row = static_cast<std::int32_t>(list_.size());
-        list_.push_back({.point = p});
+        row = static_cast<std::int32_t>(values_.size());
+        values_.push_back(0);
     }
     return row;
 }
 
-const Sample* Samples::find(const LatticePoint& p) const {
+std::int32_t Samples::find(const LatticePoint& p) const {
     const Place place = place_of(p);
-    const std::int32_t group = groups_.find(place.group);
-    if (group < 0) return nullptr;
-    const std::int32_t row = index_[static_cast<std::size_t>(group)][place.within];
-    return row < 0 ? nullptr : &list_[static_cast<std::size_t>(row)];
+    const std::int32_t group = table_.find(place.group);
+    return group < 0 ? -1 : groups_[static_cast<std::size_t>(group)][place.within];
 }
 
 }  // namespace pfgeom

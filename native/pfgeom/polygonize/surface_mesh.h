@@ -29,6 +29,7 @@ class SurfaceMesh {
 
     std::size_t face_count() const { return faces_.size(); }
     const std::vector<Triangle>& faces() const { return faces_; }
+    std::vector<Triangle> take_faces() { return std::move(faces_); }
     std::int32_t half_edges() const { return static_cast<std::int32_t>(3 * faces_.size()); }
 
     static std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace pfgeom {
 namespace {
 
@@ -30,6 +32,57 @@ TEST(PrunedFunction, EqualsTheWholeBitForBitInsideTheBoxAndOut) {
             ASSERT_EQ(pruned.value(p), whole.value(p));
         }
     }
+}
+
+// Also where some of the points are out of the box, and where their number is odd.
+TEST(PrunedFunction, ManyPointsAreAsEachAlone) {
+    Random random(13);
+    for (std::size_t trial = 0; trial < 40; ++trial) {
+        const FunctionField whole(test::random_function(random));
+        const double half = between(random, 0.01, 0.3);
+        const Vec3 c = random_point(random), h{half, half, half};
+        const PrunedFunction pruned(whole, {c - h, c + h});
+        std::vector<Vec3> points(trial);
+        std::vector<Box> boxes;
+        for (Vec3& p : points) {
+            p = c + random_point(random, trial % 2 == 0 ? 1 : 1.2) * half;
+            boxes.push_back({p - h * 0.1, p + h * 0.1});
+        }
+        std::vector<double> values(trial), with_gradients(trial);
+        std::vector<Vec3> gradients(trial);
+        std::vector<Tangent> tangents(trial);
+        pruned.values(points, values);
+        pruned.values_and_gradients(points, with_gradients, gradients);
+        pruned.tangents(boxes, tangents);
+        for (std::size_t i = 0; i < trial; ++i) {
+            Vec3 gradient;
+            ASSERT_EQ(values[i], whole.value(points[i]));
+            ASSERT_EQ(with_gradients[i], whole.value_and_gradient(points[i], gradient));
+            ASSERT_EQ(gradients[i], gradient);
+            const Tangent alone = pruned.tangent(boxes[i]);
+            ASSERT_EQ(tangents[i].value, alone.value);
+            ASSERT_EQ(tangents[i].gradient, alone.gradient);
+            ASSERT_EQ(tangents[i].error, alone.error);
+        }
+    }
+}
+
+// Two balls that cancel: their second derivatives do, too, and a bound of the third ones is left.
+TEST(PrunedFunction, TangentsKnowTheSecondDerivativesAtTheirPoint) {
+    Function f;
+    f.base.c[9] = 1;
+    Level level;
+    level.depth = 3;
+    level.radius = 0.5;
+    level.step = 1;
+    level.scale = {1, 1};
+    level.centres = {{0.1, 0, 0}, {0.1, 0, 0}};
+    level.z = {1, -1};
+    f.levels.push_back(level);
+    const FunctionField whole(f);
+    const Box box{{-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01}};
+    const PrunedFunction pruned(whole, box);
+    EXPECT_LT(pruned.tangent(box).error, 0.2 * whole.tangent(box).error);
 }
 
 TEST(PrunedFunction, TangentsAreConservative) {
