@@ -1,6 +1,7 @@
 #include "pfgeom/compress/object_mesh.h"
 
 #include "pfgeom/base/error.h"
+#include "pfgeom/base/parallel.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/nearest_quadric.h"
@@ -40,13 +41,16 @@ Fineness fineness_of(const ObjectsToMesh& all, const Object& object) {
 }
 
 // Where the surface leaves the cube the polygonizer closes it with the cube's sides: they go.
-void remove_cube_sides(const ScalarField& field, double chord, TriangleMesh& mesh) {
+void remove_cube_sides(const ScalarField& field, double chord, TriangleMesh& mesh, const Task& task) {
+    constexpr std::size_t kChunk = 1024;
     std::vector<char> off(mesh.vertices.size());
-    for (std::size_t v = 0; v < off.size(); ++v) {
-        Vec3 gradient;
-        const double value = field.value_and_gradient(mesh.vertices[v], gradient);
-        off[v] = std::abs(value) > chord * norm(gradient) ? 1 : 0;
-    }
+    parallel_chunks(off.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            Vec3 gradient;
+            const double value = field.value_and_gradient(mesh.vertices[v], gradient);
+            off[v] = std::abs(value) > chord * norm(gradient) ? 1 : 0;
+        }
+    });
     std::erase_if(mesh.faces, [&](const Triangle& face) {
         return std::ranges::any_of(face,
                                    [&](std::int32_t v) { return off[static_cast<std::size_t>(v)] != 0; });
@@ -78,7 +82,7 @@ TriangleMesh mesh_of_cut_sheet(const Model& model, const Sheet& sheet, const Pol
                                double chord, const Task& task) {
     const SolidField field(model, Solid{{{SetNode::Kind::function, sheet.surface}}});
     TriangleMesh mesh = polygonize(field, options, task);
-    remove_cube_sides(field, chord, mesh);
+    remove_cube_sides(field, chord, mesh, quiet(task, task.threads));
     const std::vector<const MaterialTree*> trees(mesh.faces.size(), &sheet.cut);
     std::vector<std::int32_t> parts = paint_faces(mesh, Frame{}, trees, kCutSnap * chord, task);
     join_specks(mesh, kSpeck * chord, parts);

@@ -36,6 +36,9 @@ class PaintFit {
     PaintFit(const Model& model, const Object& object, double tolerance, std::size_t materials, Effort effort,
              const Task& task);
 
+    /// The object's, in place.
+    const TriangleMesh& mesh() const { return mesh_; }
+
     /// One paint for all these copies, and what it misses; the second is what `best_of` compares.
     Paint fit(std::span<const PaintedCopy> copies, PaintError& error);
     /// Whether what is known of the copies agrees, so that one paint can serve them all.

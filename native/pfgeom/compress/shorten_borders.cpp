@@ -58,9 +58,11 @@ class Shortener {
             const auto at = samples.find(leaf_of_[f]);
             if (at != samples.end()) at->second.push_back(sample_of(f, wrong[f] != 0));
         }
+        std::map<std::int32_t, std::vector<BorderPiece>> borders = borders_of_bits(wrong);
         for (const auto& [row, list] : samples) {
             const Place place = place_of(row);
-            MaterialTree part = part_of_leaf(row, place.cell, list, wrong);
+            const MaterialFit options{goal_.tolerance / frame_.half() / 8, 8, place.cell};
+            MaterialTree part = fit_material_tree(list, borders[row], options, task_);
             if (place.depth + depth_of(part, 0) <= kMaxMaterialDepth) parts[row] = std::move(part);
         }
         splice(parts);
@@ -150,24 +152,23 @@ class Shortener {
         return sample;
     }
 
-    MaterialTree part_of_leaf(std::int32_t row, const Box& cell, const std::vector<MaterialSample>& samples,
-                              const std::vector<char>& wrong) {
-        std::vector<BorderPiece> borders;
+    // Around the bits, for each leaf that has a part of one.
+    std::map<std::int32_t, std::vector<BorderPiece>> borders_of_bits(const std::vector<char>& wrong) const {
+        std::map<std::int32_t, std::vector<BorderPiece>> borders;
         EdgeTable(mesh_.faces, mesh_.vertices.size()).for_each([&](std::span<const EdgeUse> uses) {
             for (const EdgeUse& use : uses) {
                 const auto f = static_cast<std::size_t>(use.face());
-                if (wrong[f] == 0 || leaf_of_[f] != row) continue;
+                if (wrong[f] == 0) continue;
                 const Triangle& t = mesh_.faces[f];
                 const Vec3 from = mesh_.vertices[use.lo], to = mesh_.vertices[use.hi];
                 const Vec3 normal = cross(mesh_.vertices[t[1]] - mesh_.vertices[t[0]],
                                           mesh_.vertices[t[2]] - mesh_.vertices[t[0]]);
                 const Vec3 across = cross(to - from, normal);
                 if (squared_norm(across) > 0)
-                    borders.push_back({frame_.to_local((from + to) / 2), normalized(across)});
+                    borders[leaf_of_[f]].push_back({frame_.to_local((from + to) / 2), normalized(across)});
             }
         });
-        const MaterialFit options{goal_.tolerance / frame_.half() / 8, 8, cell};
-        return fit_material_tree(samples, borders, options, task_);
+        return borders;
     }
 
     // Where a leaf is: what the cuts above it leave, and the questions.

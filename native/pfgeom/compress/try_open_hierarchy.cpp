@@ -2,7 +2,6 @@
 // decision tree of planes, which is found as that of two materials is.
 #include "pfgeom/compress/hierarchy_search.h"
 #include "pfgeom/compress/labelled_surface.h"
-#include "pfgeom/compress/object_mesh.h"
 #include "pfgeom/compress/paint_fit.h"
 #include "pfgeom/compress/shorten_borders.h"
 #include "pfgeom/mesh/close_holes.h"
@@ -38,8 +37,7 @@ class Opener {
         PaintError error;
         Paint paint = fit.fit({&here, 1}, error);
         MaterialTree& tree = paint.trees.front();
-        shorten_borders(mesh_in_place(model, {model.objects, model.diagonal}, model.objects.front(), task_),
-                        solid.object.frame, {surface_, tolerance_}, tree, task_);
+        shorten_borders(fit.mesh(), solid.object.frame, {surface_, tolerance_}, tree, task_);
         solid.candidate = "sheet";
         solid.object.shape = Sheet{0, -1, std::move(tree)};
     }

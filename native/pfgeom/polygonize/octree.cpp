@@ -8,6 +8,8 @@
 // error.
 #include "pfgeom/polygonize/octree.h"
 
+#include "pfgeom/polygonize/plain_leaf.h"
+
 #include <algorithm>
 
 namespace pfgeom {
@@ -20,26 +22,10 @@ constexpr double kWide = 0.5;
 // their mean (at 60°, sheets between the corners are missed: 57 instead of 4 tolerances on igea).
 constexpr double kTurning = 0.85;
 
-// Are the inside corners connected along the cube's edges, and the outside corners too? Then the cell has one
-// sheet of surface.
-constexpr bool one_sheet(unsigned inside) {
-    for (const unsigned set : {inside, ~inside & 255U}) {
-        if (set == 0) continue;
-        unsigned reached = set & (~set + 1);
-        for (int round = 0; round < 8; ++round)
-            for (unsigned i = 0; i < 8; ++i)
-                if (reached >> i & 1)
-                    for (unsigned axis = 0; axis < 3; ++axis) reached |= (1U << (i ^ (1U << axis))) & set;
-        if (reached != set) return false;
-    }
-    return true;
+bool one_sheet(std::uint8_t inside) {
+    const PlainLeaf& leaf = plain_leaf(inside);
+    return leaf.sheets <= 1 && !leaf.ambiguous;
 }
-
-constexpr auto kOneSheet = [] {
-    std::array<bool, 256> table{};
-    for (unsigned i = 0; i < 256; ++i) table[i] = one_sheet(i);
-    return table;
-}();
 
 Vec3 vector_of(const Samples::Normal& n) {
     return {n[0], n[1], n[2]};
@@ -155,7 +141,7 @@ bool Octree::should_split(const OctreeNode& node, const Corners& corners, Centre
     centre.normal = Samples::normal_of(gradient);
     if (spread(normals, vector_of(centre.normal), kWide)) return true;
     if (!node.mixed()) return (node.inside == 255) != (centre.value >= 0);
-    return !kOneSheet[node.inside] || chord(node, normals, centre) > chord_;
+    return !one_sheet(node.inside) || chord(node, normals, centre) > chord_;
 }
 
 // For a chord from the centre to a corner, normals n and n' at its ends and the vector d between them, the

@@ -8,16 +8,24 @@
 namespace pfgeom {
 namespace {
 
+Sheet cut_sheet(Random& random, int depth) {
+    Sheet sheet{0, -1, {}};
+    test::grow_material_tree(random, root_cell(), depth, 2, sheet.cut);
+    return sheet;
+}
+
+SolidField field_of(const Trim& trim) {
+    Model model;
+    model.functions = trim.functions;
+    return {model, Solid{trim.nodes}};
+}
+
 // The value of the expression, whose sign the decision tree tells at every point that is not on a plane.
 TEST(Trim, SaysWhatTheDecisionTreeSays) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         Random random(seed);
-        Sheet sheet{0, -1, {}};
-        test::grow_material_tree(random, root_cell(), 1 + test::below(random, 6), 2, sheet.cut);
-        const Trim trim = trim_of(test::ball(), sheet);
-        Model model;
-        model.functions = trim.functions;
-        const SolidField field(model, Solid{trim.nodes});
+        const Sheet sheet = cut_sheet(random, 1 + test::below(random, 6));
+        const SolidField field = field_of(trim_of(test::ball(), sheet));
         for (int i = 0; i < 300; ++i) {
             const Vec3 p{test::between(random, -1, 1), test::between(random, -1, 1),
                          test::between(random, -1, 1)};
@@ -30,13 +38,9 @@ TEST(Trim, SaysWhatTheDecisionTreeSays) {
 TEST(Trim, HasNoJumps) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         Random random(seed);
-        Sheet sheet{0, -1, {}};
-        test::grow_material_tree(random, root_cell(), 4, 2, sheet.cut);
-        const Trim trim = trim_of(test::ball(), sheet);
+        const Trim trim = trim_of(test::ball(), cut_sheet(random, 4));
         if (trim.functions.empty()) continue;
-        Model model;
-        model.functions = trim.functions;
-        const SolidField field(model, Solid{trim.nodes});
+        const SolidField field = field_of(trim);
         for (int i = 0; i < 300; ++i) {
             const Vec3 p{test::between(random, -1, 1), test::between(random, -1, 1),
                          test::between(random, -1, 1)};
