@@ -10,8 +10,8 @@ namespace pfgeom {
 /// Makes the object of a solid that is fitted, where that is something else.
 using Finish = std::function<void(Outcome& solid)>;
 
-/// `closed`: the goal's mesh, or one that holds it; the solid is fitted to it, and what becomes of it is
-/// proved against the goal's. Gives up when it needs more than `most_bytes`.
+/// `closed`: the goal's mesh, or one that begins with its faces; the solid is fitted to it, and what becomes
+/// of it is proved against the goal's. Gives up when it needs more than `most_bytes`.
 std::optional<Outcome> search_hierarchy(const Goal& goal, const TriangleMesh& closed, const Finish& finish,
                                         std::size_t most_bytes, const Task& task);
 

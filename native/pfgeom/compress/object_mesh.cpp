@@ -64,16 +64,30 @@ constexpr double kCutSnap = 1.0 / 8;
 // Where planes meet beside a border specks may be left, of which a finer mesh sees more: they go over to what
 // is around them. Of the default mesh's chords: so large they are at most.
 constexpr double kSpeck = 8;
+// A sheet is one piece, so whatever else is kept goes, in the middle of a hole too; of the largest piece's
+// area. Not all of it: where a neck is too thin for a coarse mesh, what hangs on it stays.
+constexpr double kCrumb = 0.01;
 
 void join_specks(const TriangleMesh& mesh, double largest, std::vector<std::int32_t>& parts) {
+    struct Piece {
+        Box box;
+        double area = 0;
+    };
     const std::vector<std::int32_t> first = first_of_piece(mesh, parts);
-    std::vector<Box> boxes(parts.size());
-    const auto box = [&](std::size_t f) -> Box& { return boxes[static_cast<std::size_t>(first[f])]; };
+    std::vector<Piece> pieces(parts.size());
+    const auto piece = [&](std::size_t f) -> Piece& { return pieces[static_cast<std::size_t>(first[f])]; };
+    double most = 0;
     for (std::size_t f = 0; f < parts.size(); ++f) {
-        for (const std::int32_t v : mesh.faces[f]) box(f).grow(mesh.vertices[v]);
+        const auto& [a, b, c] = mesh.faces[f];
+        const Vec3 p = mesh.vertices[a], q = mesh.vertices[b], r = mesh.vertices[c];
+        piece(f).box.grow(p), piece(f).box.grow(q), piece(f).box.grow(r);
+        piece(f).area += norm(cross(q - p, r - p)) / 2;
+        if (parts[f] == Sheet::kKept) most = std::max(most, piece(f).area);
     }
     for (std::size_t f = 0; f < parts.size(); ++f) {
-        if (box(f).diagonal() < largest) parts[f] = parts[f] == Sheet::kKept ? Sheet::kCut : Sheet::kKept;
+        const bool kept = parts[f] == Sheet::kKept;
+        if (piece(f).box.diagonal() < largest || (kept && piece(f).area < kCrumb * most))
+            parts[f] = kept ? Sheet::kCut : Sheet::kKept;
     }
 }
 

@@ -8,12 +8,14 @@
 namespace pfgeom {
 namespace {
 
-// Enough for the rms to be right within half a percent; the final measurement takes the default, and a proof
-// leaves it that half percent.
-constexpr double kRmsShare = 0.995;
+// As many as the measurement of the whole takes in the end, so that one island that holds here holds there.
 std::size_t samples_for(const TriangleMesh& mesh) {
-    return std::clamp<std::size_t>(mesh.faces.size() * 10, 10'000, 100'000);
+    return std::clamp<std::size_t>(mesh.faces.size() * 20, 10'000, 200'000);
 }
+
+// What other samples say differs: the rms of closed surfaces by some 0.2 %; of cut sheets, whose error is
+// largest in strips along the borders, by 0.6 % (stanford-bunny at 1e-4).
+constexpr double kRmsShare = 0.995, kRmsShareOfSheets = 0.985;
 
 }  // namespace
 
@@ -70,6 +72,8 @@ void prove(const Goal& goal, Outcome& outcome, const Task& task) {
     const Measured measured = measure(goal, outcome.mesh, task);
     outcome.deviation = measured.deviation;
     outcome.holds = measured.holds;
+    if (goal.metric == Metric::rms && std::holds_alternative<Sheet>(outcome.object.shape))
+        outcome.holds = outcome.deviation.rms() <= kRmsShareOfSheets * goal.tolerance;
 }
 
 }  // namespace pfgeom

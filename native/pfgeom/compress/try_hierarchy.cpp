@@ -53,7 +53,7 @@ class Search {
         : goal_(goal),
           finish_(finish),
           task_(task),
-          target_(closed, sample_count(goal)),
+          target_(closed, sample_count(goal), goal.mesh.faces.size()),
           tolerance_(goal.tolerance / target_.frame.half()) {
         options_.most_bits = 8.0 * static_cast<double>(most_bytes);
         options_.last_thin = kLastThinLevel;
@@ -79,7 +79,8 @@ class Search {
     }
 
     std::optional<Outcome> search_rms() {
-        constexpr double kAim = 0.991, kBand = 0.012;
+        constexpr double kBand = 0.012;
+        const double aim = finish_ ? 0.981 : 0.991;  // just below what prove() takes
         Secant secant(-8 * reproducible_log2(tolerance_ / 0.3));
         double bias = 1.015;  // measured rms over that of the fit's own samples: the mesh adds its chords
         std::optional<Outcome> best;
@@ -89,16 +90,16 @@ class Search {
             const HierarchyFit fit = fit_hierarchy(target_, options_, task_);
             if (fit.function.levels.empty()) break;
             const double expected = fit.rms * bias / tolerance_;
-            if (std::abs(expected - kAim) <= kBand || fits + 1 == kMostFits) {
+            if (std::abs(expected - aim) <= kBand || fits + 1 == kMostFits) {
                 const Outcome outcome = prove_fit(fit, 0.5 * goal_.tolerance);
                 ++proofs;
                 if (outcome.mesh.faces.empty()) break;
                 const double reached = outcome.deviation.rms() / goal_.tolerance;
                 if (outcome.holds && (!best || outcome.bytes < best->bytes)) best = outcome;
-                if (reached > 3 || (outcome.holds && reached > kAim - kBand)) break;
+                if (reached > 3 || (outcome.holds && reached > aim - kBand)) break;
                 bias = reached * tolerance_ / fit.rms;
             }
-            secant.step(fit.rms, kAim * tolerance_ / bias);
+            secant.step(fit.rms, aim * tolerance_ / bias);
         }
         return best;
     }

@@ -15,6 +15,10 @@ double signed_volume(const TriangleMesh& mesh) {
     return six / 6;
 }
 
+// What closes a surface is cut away again, so it need not be exact: one in so many of its samples is kept
+// (stanford-bunny, 2 % of whose area are holes: 3 % fewer bytes at 1e-4, 2 % at 2e-4).
+constexpr std::size_t kFewer = 16;
+
 // Along a coarse Morton curve, so that neighbours in memory are neighbours in space.
 std::uint32_t curve_position(const Vec3& p) {
     std::uint32_t key = 0;
@@ -34,7 +38,7 @@ TriangleMesh in_cube(TriangleMesh mesh, const Frame& frame) {
     return mesh;
 }
 
-FitTarget::FitTarget(const TriangleMesh& island, std::size_t samples)
+FitTarget::FitTarget(const TriangleMesh& island, std::size_t samples, std::size_t own)
     : frame(Frame::around(pfgeom::bounds(island))), bvh(in_cube(island, frame)) {
     const TriangleMesh local = in_cube(island, frame);
     const Box box = pfgeom::bounds(local);
@@ -43,9 +47,11 @@ FitTarget::FitTarget(const TriangleMesh& island, std::size_t samples)
     inside_out = signed_volume(local) < 0;
     const SurfaceSamples drawn = sample_surface(local, samples, 1);
     const std::vector<Vec3> vertex_normal = vertex_normals(local);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> order(drawn.points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        order[i] = {curve_position(drawn.points[i]), static_cast<std::uint32_t>(i)};
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+    std::size_t closing = 0;
+    for (std::size_t i = 0; i < drawn.points.size(); ++i) {
+        if (static_cast<std::size_t>(drawn.faces[i]) >= own && closing++ % kFewer != 0) continue;
+        order.emplace_back(curve_position(drawn.points[i]), static_cast<std::uint32_t>(i));
     }
     std::sort(order.begin(), order.end());
     for (const auto& [key, i] : order) {

@@ -7,6 +7,7 @@
 #include "pfgeom/mesh/triangle_mesh.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace pfgeom {
@@ -23,8 +24,8 @@ struct FitTarget {
     std::vector<Vec3> points;   ///< #S stratified samples, in Morton order
     std::vector<Vec3> normals;  ///< #S, interpolated from the vertices, unit, outwards
 
-    /// `island`: closed, in the world.
-    FitTarget(const TriangleMesh& island, std::size_t samples);
+    /// `island`: closed, in the world; the faces behind the first `own` only close it, and get few samples.
+    FitTarget(const TriangleMesh& island, std::size_t samples, std::size_t own = SIZE_MAX);
 
     /// Vertices as further samples: where the maximum counts, since that is where the mesh reaches furthest.
     void add_vertices(const TriangleMesh& island);

@@ -170,19 +170,47 @@ TEST(Sheet, AFreeFormWithHolesTakesFewestBytesCut) {
     EXPECT_LE(measure_deviation(input, to_mesh(*decode(c.bytes))).rms(), 1e-3 * diagonal(input));
 }
 
-// The polygonizer closes a surface that leaves the cube; those sides are none of it.
-TEST(Sheet, SidesOfTheCubeAreNoSurface) {
+// z = 1/4 in the cube, where `cut` keeps it.
+Model cut_plane(const MaterialTree& cut) {
     Model model;
     model.diagonal = 2;
     model.functions.resize(1);
-    model.functions[0].base = {{0, 0, 0, 0, 0, 0, 0, 0, -1, 0.25}};  // z = 1/4
+    model.functions[0].base = {{0, 0, 0, 0, 0, 0, 0, 0, -1, 0.25}};
     model.objects.emplace_back();
-    model.objects[0].shape = Sheet{0, -1, plain_paint(Sheet::kKept).trees.front()};
+    model.objects[0].shape = Sheet{0, -1, cut};
     model.objects[0].mesh_code = 36;
+    return model;
+}
+
+// The polygonizer closes a surface that leaves the cube; those sides are none of it.
+TEST(Sheet, SidesOfTheCubeAreNoSurface) {
+    const Model model = cut_plane(plain_paint(Sheet::kKept).trees.front());
     const TriangleMesh mesh = to_mesh(model);
     EXPECT_NEAR(surface_area(mesh), 4, 0.2);
     const double chord = 2 * exp2_eighths(-72);
     for (const Vec3& v : mesh.vertices) EXPECT_NEAR(v.z, 0.25, chord);
+}
+
+// Half of the plane, and a square an eighth wide far from it.
+TEST(Sheet, CrumbsAreNoSurface) {
+    MaterialTree cut;
+    Box cell = root_cell();
+    for (int i = 0; i < 8; ++i) {
+        MaterialNode half;
+        half.axis = i < 4 ? 0 : 1;
+        const auto row = static_cast<std::int32_t>(cut.nodes.size());
+        half.high = row + 1, half.low = row + 2;
+        derive(half, cell);
+        cell = low_cell(half, cell);
+        cut.nodes.push_back(half);
+        cut.nodes.emplace_back().material = row == 0 ? Sheet::kKept : Sheet::kCut;
+    }
+    cut.nodes.emplace_back().material = Sheet::kKept;
+    for (const int resolution : {40, 200}) {
+        const TriangleMesh mesh = to_mesh(cut_plane(cut), {{}, resolution});
+        EXPECT_NEAR(surface_area(mesh), 2, 0.1);
+        for (const Vec3& v : mesh.vertices) EXPECT_GT(v.x, -0.01);
+    }
 }
 
 TEST(Sheet, PerturbationsAreRefusedByName) {
