@@ -10,12 +10,16 @@
 #include "pfgeom/report/deviation.h"
 #include "pfgeom/segment/mirror.h"
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pfgeom {
+
+constexpr std::size_t kAnyBytes = std::numeric_limits<std::size_t>::max();
 
 /// A mesh to be represented, and how well.
 struct Goal {
@@ -66,9 +70,10 @@ struct MeshEstimate {
 };
 MeshEstimate estimate_mesh(const Goal& goal, const Task& task);
 
-/// Simplified and coded mesh, its faces flat or curved: any shape; always holds. An estimate that is not
-/// known is made where it is needed.
-Outcome try_mesh(const Goal& goal, std::optional<MeshEstimate> known, const Task& task);
+/// Simplified and coded mesh, its faces flat or curved: any shape; holds, unless it needs more than
+/// `most_bytes`. An estimate that is not known is made where it is needed.
+Outcome try_mesh(const Goal& goal, std::optional<MeshEstimate> known, std::size_t most_bytes,
+                 const Task& task);
 
 /// The cheapest candidate that holds, for an oriented island that is closed, or a manifold with a border.
 /// Nothing: it is for a mesh part.

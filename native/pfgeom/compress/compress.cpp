@@ -232,7 +232,7 @@ class Compressor {
         std::sort(together.faces.begin(), together.faces.end());
         const TriangleMesh mesh = extract_island(prepared_, together);
         const Bvh bvh(mesh);
-        Outcome outcome = try_mesh(goal_of(mesh, bvh, false), {}, part_of(task_, 0.82, 0.95));
+        Outcome outcome = try_mesh(goal_of(mesh, bvh, false), {}, kAnyBytes, part_of(task_, 0.82, 0.95));
         model_.objects.push_back(std::move(outcome.object));
         of_mesh_part_ = outcome.deviation;
     }

@@ -78,7 +78,7 @@ class CopiesFit {
         const Bvh bvh(pattern_);
         const Goal goal = goal_for(pattern_, bvh, (1 - share) * goal_.tolerance / largest);
         std::optional<Outcome> outcome = fit_island(first(), goal, task_);
-        if (!outcome) outcome = try_mesh(goal, {}, task_);
+        if (!outcome) outcome = try_mesh(goal, {}, kAnyBytes, task_);
         if (!outcome->holds) return false;
         of_pattern_ = *std::move(outcome);
         alone_ = of_pattern_.bytes;

@@ -8,7 +8,6 @@ namespace {
 
 // Up to so many faces the mesh candidate is cheap enough to be made as the bytes to beat.
 constexpr std::size_t kQuickMesh = 40'000;
-constexpr std::size_t kNoLimit = std::size_t{1} << 24;  // of bytes
 // Fewer faces than this are no ellipsoid; fewer than that are a tree or part of the common mesh.
 constexpr std::size_t kLeastFacesOfQuadric = 8, kLeastFacesAlone = 100;
 // The estimate is of flat faces; curved ones take down to half of it (thingi-1706459 at 1e-3: 826 bytes where
@@ -17,6 +16,8 @@ constexpr std::size_t kSure = 2;
 // A tree of so few bytes is not compared: a mesh could save a dozen of them, at many times the work; but it
 // is no work where the input has few faces.
 constexpr std::size_t kFewBytes = 120, kFewFaces = 400;
+// How much larger a tree may become when it is mended, before a mesh of as many bytes is looked for.
+constexpr double kGrowth = 1.25;
 // Nor are fewer than this worth a sheet, which takes some 40 bytes.
 constexpr std::size_t kLeastFacesOfSheet = 16;
 
@@ -38,21 +39,29 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
                kSure * bytes < estimate().least_mirrored();
     };
     std::optional<Outcome> plain;
+    std::size_t beaten = 0;  // no mesh takes so few bytes
+    const auto look_for_mesh = [&](std::size_t most) {
+        if (all) most = kAnyBytes;
+        if (plain || most <= beaten) return;
+        Outcome mesh = try_mesh(goal, known, most, task);
+        if (mesh.holds)
+            plain = std::move(mesh);
+        else
+            beaten = most;
+    };
     const auto limit = [&](std::size_t bytes) {
-        if (!plain && !surely_less(bytes)) plain = try_mesh(goal, known, task);
-        return plain && plain->holds ? std::min(plain->bytes, estimate().likely) : estimate().likely;
+        if (!surely_less(bytes))
+            look_for_mesh(static_cast<std::size_t>(kGrowth * static_cast<double>(bytes)));
+        return plain ? std::min(plain->bytes, estimate().likely) : estimate().likely;
     };
     std::optional<Outcome> best = try_tree(goal, limit, task);
     if (best && surely_less(best->bytes) && !all) return best;
     if (!best && goal.mesh.faces.size() < kLeastFacesAlone) return {};
-    if (!plain) plain = try_mesh(goal, known, task);
+    look_for_mesh(best ? best->bytes : kAnyBytes);
+    take_cheaper(std::move(plain), best);
     // By the maximum no hierarchy was the cheapest of the candidates at any of 50 points: 17 meshes at 1e-2,
     // 1e-3 and 2e-4.
-    if (all || !plain->holds) {
-        const std::size_t most = std::min(best ? best->bytes : plain->bytes, plain->bytes);
-        take_cheaper(try_hierarchy(goal, most, task), best);
-    }
-    take_cheaper(std::move(plain), best);
+    if (all || !best) take_cheaper(try_hierarchy(goal, best ? best->bytes : kAnyBytes, task), best);
     return best;
 }
 
@@ -64,10 +73,10 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     if (!best && !alone) return {};
     const bool far_below = best && best->bytes < estimate.least_mirrored() && goal.effort != Effort::best;
     if (!far_below && goal.mesh.faces.size() <= kQuickMesh)
-        take_cheaper(try_mesh(goal, estimate, task), best);
+        take_cheaper(try_mesh(goal, estimate, kAnyBytes, task), best);
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
     // search of that starts too fine.
-    if (alone) take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kNoLimit, task), best);
+    if (alone) take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kAnyBytes, task), best);
     return best;
 }
 
@@ -85,8 +94,8 @@ std::optional<Outcome> fit_open(const Goal& goal, const Task& task) {
     const std::size_t faces = goal.mesh.faces.size();
     if (faces < kLeastFacesAlone || (goal.metric == Metric::max && goal.effort != Effort::best)) return {};
     std::optional<Outcome> best;
-    if (faces <= kQuickMesh) take_cheaper(try_mesh(goal, {}, task), best);
-    take_cheaper(try_open_hierarchy(goal, best ? best->bytes : kNoLimit, task), best);
+    if (faces <= kQuickMesh) take_cheaper(try_mesh(goal, {}, kAnyBytes, task), best);
+    take_cheaper(try_open_hierarchy(goal, best ? best->bytes : kAnyBytes, task), best);
     return best;
 }
 

@@ -7,7 +7,6 @@
 #include "pfgeom/fit/simplify.h"
 #include "pfgeom/function/edges_of_faces.h"
 
-#include <limits>
 #include <vector>
 
 namespace pfgeom {
@@ -21,7 +20,8 @@ constexpr std::size_t kMostTriangles = 3;
 // than so much a finer default mesh is tried, with chords of half the length in the end.
 constexpr double kMaySuffice = 1.15;
 constexpr int kFinerCodes = 2, kMostFiner = 4;
-constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+// Of a face: the fewest were 2.3 curved (suzanne at 1e-2) and 1.03 flat (teapot at 2e-4).
+constexpr double kLeastCurvedBytes = 2, kLeastFlatBytes = 0.9;
 
 // The finest default mesh that is not too large for the input.
 std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
@@ -31,7 +31,7 @@ std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
         try {
             return mesh_of(object, {.chord = goal.diagonal * exp2_eighths(-2 * int{code})}).faces.size();
         } catch (const LimitExceeded&) {
-            return kNoLimit;
+            return kAnyBytes;
         }
     };
     std::size_t count = triangles();
@@ -84,10 +84,17 @@ Outcome attempt_mesh(const WantedMesh& wanted, double share, bool curved, const 
     const double reserve = curved ? kReserve * goal.tolerance : 0;
     MeshPartOptions options{goal.tolerance - reserve, goal.metric, share, curved, {}};
     if (wanted.mirror) options.mirror = wanted.mirror->plane;
+    const double faces =
+        static_cast<double>(wanted.most_bytes) / (curved ? kLeastCurvedBytes : kLeastFlatBytes);
+    if (share > 0 && wanted.most_bytes < kAnyBytes) options.most_faces = static_cast<std::size_t>(faces);
     outcome.object = fit_mesh_part(wanted.mirror ? wanted.mirror->mesh : goal.mesh, options, task);
     if (wanted.mirror) outcome.object.placements = wanted.mirror->placements;
-    if (curved) outcome.object.mesh_code = mesh_code_of(goal, outcome.object);
     auto& part = std::get<MeshPart>(outcome.object.shape);
+    if (part.faces.empty()) {
+        outcome.bytes = kAnyBytes;
+        return outcome;
+    }
+    if (curved) outcome.object.mesh_code = mesh_code_of(goal, outcome.object);
     if (!joins_cleanly(part)) return outcome;
     part = canonical(part);
     if (curved)

@@ -4,6 +4,7 @@
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mirror_pose.h"
 
+#include <cstddef>
 #include <optional>
 
 namespace pfgeom {
@@ -12,9 +13,13 @@ namespace pfgeom {
 struct WantedMesh {
     const Goal& goal;
     std::optional<MirrorPose> mirror;
+    std::size_t most_bytes = kAnyBytes;  ///< more are of no use
+
+    bool too_large(const Outcome& outcome) const { return outcome.bytes > most_bytes; }
 };
 
-/// With a share of the tolerance (0: no simplification; of all of a mesh only).
+/// With a share of the tolerance (0: no simplification; of all of a mesh only). Gives up, without a mesh,
+/// where it sees that it takes too many bytes.
 Outcome attempt_mesh(const WantedMesh& wanted, double share, bool curved, const Task& task);
 
 }  // namespace pfgeom

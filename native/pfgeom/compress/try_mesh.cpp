@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace pfgeom {
@@ -17,7 +16,6 @@ constexpr std::size_t kMostCurved = 60'000;
 // one half swollen by 0, 0.3 and 0.5 of 5e-3 takes 15, 18 and 21 patches; at 0.8 mending them comes to no
 // end.
 constexpr double kMostAsymmetric = 0.6;
-constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 // The simplifier's own measure of the rms is off by up to a fifth either way (rocker-arm at 5e-4), but by the
 // same factor at neighbouring shares: so it is corrected by what was measured.
@@ -47,18 +45,18 @@ Outcome flat_with_less(const WantedMesh& wanted, const Task& task) {
     for (const double share : {0.95, 0.85, 0.7, 0.5, 0.0}) {
         if (wanted.mirror && share < 0.85) break;
         outcome = attempt_mesh(wanted, share, false, task);
-        if (outcome.holds) break;
+        if (outcome.holds || wanted.too_large(outcome)) break;
     }
     return outcome;
 }
 
 Outcome flat_by_max(const WantedMesh& wanted, const Task& task) {
     Outcome outcome = attempt_mesh(wanted, kFlatShare, false, task);
-    return outcome.holds ? std::move(outcome) : flat_with_less(wanted, task);
+    return outcome.holds || wanted.too_large(outcome) ? std::move(outcome) : flat_with_less(wanted, task);
 }
 
 Outcome flat_by_rms(const WantedMesh& wanted, const Task& task) {
-    std::optional<Outcome> found = search_rms(wanted, false, kNoLimit, task);
+    std::optional<Outcome> found = search_rms(wanted, false, kAnyBytes, task);
     if (!found && !wanted.mirror) found = attempt_mesh(wanted, 0, false, task);
     return found ? *std::move(found) : Outcome{};
 }
@@ -73,10 +71,11 @@ Outcome best_by_max(const WantedMesh& wanted, std::optional<MeshEstimate>& known
     }
     Outcome flat = attempt_mesh(wanted, kFlatShare, false, task);
     for (const double share : {0.96, 0.9}) {
-        if (curved.holds || (flat.holds && curved.bytes >= flat.bytes)) break;
+        if (curved.holds || wanted.too_large(curved) || (flat.holds && curved.bytes >= flat.bytes)) break;
         curved = attempt_mesh(wanted, share, true, task);
     }
-    if (!flat.holds && !(curved.holds && curved.bytes < flat.bytes)) flat = flat_with_less(wanted, task);
+    const bool enough = flat.holds || wanted.too_large(flat) || (curved.holds && curved.bytes < flat.bytes);
+    if (!enough) flat = flat_with_less(wanted, task);
     const bool better = curved.holds && (!flat.holds || curved.bytes < flat.bytes);
     return better ? std::move(curved) : std::move(flat);
 }
@@ -89,7 +88,7 @@ Outcome best_of(const WantedMesh& wanted, std::optional<MeshEstimate>& known, co
         return by_max ? flat_by_max(wanted, task) : flat_by_rms(wanted, task);
     if (by_max) return best_by_max(wanted, known, task);
     Outcome flat = flat_by_rms(wanted, task);
-    std::optional<Outcome> curved = search_rms(wanted, true, flat.holds ? flat.bytes : kNoLimit, task);
+    std::optional<Outcome> curved = search_rms(wanted, true, flat.holds ? flat.bytes : kAnyBytes, task);
     return curved && (!flat.holds || curved->bytes < flat.bytes) ? *std::move(curved) : flat;
 }
 
@@ -114,13 +113,17 @@ MeshEstimate estimate_mesh(const Goal& goal, const Task& task) {
             static_cast<std::size_t>(kMostBytes * static_cast<double>(left[0])), mirror_of(goal, task)};
 }
 
-Outcome try_mesh(const Goal& goal, std::optional<MeshEstimate> known, const Task& task) {
+Outcome try_mesh(const Goal& goal, std::optional<MeshEstimate> known, std::size_t most_bytes,
+                 const Task& task) {
     const std::optional<Mirror> mirror = known ? known->mirror : mirror_of(goal, task);
-    if (std::optional<MirrorPose> pose = mirror_pose(goal, mirror)) {
-        Outcome outcome = best_of({goal, std::move(pose)}, known, task);
-        if (outcome.holds) return outcome;
+    WantedMesh wanted{goal, mirror_pose(goal, mirror), most_bytes};
+    Outcome outcome = best_of(wanted, known, task);
+    if (wanted.mirror && !outcome.holds && !wanted.too_large(outcome)) {  // both halves only take more
+        wanted.mirror.reset();
+        outcome = best_of(wanted, known, task);
     }
-    return best_of({goal, {}}, known, task);
+    if (wanted.too_large(outcome)) outcome.holds = false;
+    return outcome;
 }
 
 }  // namespace pfgeom

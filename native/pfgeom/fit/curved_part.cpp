@@ -49,6 +49,7 @@ Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options,
         relax_vertices(work, error, within(kLaterShare), task);
         collapse_edges(work, error, within(kLaterShare), task);
     }
+    if (work.face_count() > options.most_faces) return part_on_grid({}, grid);
     snap_vertices(work, error, within(kLatticeShare), grid, true, task);
     Object object = mended_part(surface.original(), work, error, within(kBulgeShare), grid, bulge_code, task);
     task.report(1, "patches");

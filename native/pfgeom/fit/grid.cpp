@@ -171,10 +171,23 @@ class Snapper {
         };
         mesh_.patch_of_move(v, mesh_.point(v), patch_);
         std::vector<Candidate> candidates;
+        std::vector<double> least;  // of their costs those that count, as a heap
+        const auto cost_of = [&](const GridPoint& q) {
+            const auto known = std::ranges::find(candidates, q, &Candidate::q);
+            if (known != candidates.end()) return known->cost;
+            mesh_.patch_of_move(v, grid_.point(q), patch_);
+            if (!mesh_.keeps_orientation(patch_)) return kInfinity;
+            return error_.forward(patch_, least.size() < kMostTrials ? kInfinity : least.front());
+        };
         for (const GridPoint& middle : {nearest(v, mesh_.point(v)), nearest(v, fitted_place())}) {
             for (std::int32_t i = 0; i < 27; ++i) {
                 const GridPoint q{middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
-                candidates.push_back({cost(v, q, kInfinity), q});
+                candidates.push_back({cost_of(q), q});
+                least.push_back(candidates.back().cost);
+                std::push_heap(least.begin(), least.end());
+                if (least.size() <= kMostTrials) continue;
+                std::pop_heap(least.begin(), least.end());
+                least.pop_back();
             }
         }
         std::stable_sort(candidates.begin(), candidates.end(),
@@ -183,14 +196,14 @@ class Snapper {
         candidates.resize(kMostTrials);  // the way back is dear to measure
         for (const auto& [forward, q] : candidates) {
             if (!(forward < best.cost) || best.cost <= limits_.forward) break;
-            cost(v, q, kInfinity);
+            mesh_.patch_of_move(v, grid_.point(q), patch_);
             const double most = std::min(best.cost, 3 * limits_.backward);
             const bool by_max = limits_.metric == Metric::max;
             const double backward = error_.backward(patch_, most, by_max ? forward : most);
             const double worst = by_max ? std::max(forward, backward) : forward;
             if (backward < kInfinity && worst < best.cost) best = {worst, q};
         }
-        cost(v, best.q, kInfinity);
+        mesh_.patch_of_move(v, grid_.point(best.q), patch_);
         take(v);
     }
 

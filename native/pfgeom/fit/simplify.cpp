@@ -55,6 +55,7 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
     }
     const CollapseLimits outer{options.metric, goal, by_max ? goal : kWorstOfRms * goal, size};
     relax_vertices(work, error, outer, task);
+    if (work.face_count() > options.most_faces) return part_on_grid({}, surface.grid(goal));
     Object object;
     for (const double step : kSteps) {
         const Grid grid = surface.grid(step * goal);

@@ -6,6 +6,8 @@
 #include "pfgeom/mesh/halves.h"
 #include "pfgeom/mesh/triangle_mesh.h"
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace pfgeom {
@@ -20,6 +22,8 @@ struct MeshPartOptions {
     /// The part is to be mirrored in this plane, the half above it fitted to both halves. Only with a share
     /// above 0.
     std::optional<AxisPlane> mirror = {};
+    /// Gives up, without a face, where collapses leave more. Only with a share above 0.
+    std::size_t most_faces = std::numeric_limits<std::size_t>::max();
 };
 
 /// Simplifies by edge collapses ordered by the true two-sided error, then quantises; the result, dequantised,
