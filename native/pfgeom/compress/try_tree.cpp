@@ -132,10 +132,11 @@ class TreeSearch {
     std::optional<TreeCandidate> smallest(double share, double tolerance) const {
         const double certified = tolerance / frame_.half();
         for (const auto& shares : {std::span(kShares), std::span(kOtherwise)}) {
-            std::vector<TreeCandidate> trees = mended(shares, share * certified, certified);
+            std::vector<TreeCandidate> trees = fitted(shares, share * certified);
             if (trees.empty()) continue;
             const double least = least_bits(trees);
             if (!std::isfinite(least)) break;
+            mend(trees, certified);
             std::erase_if(trees, [](const TreeCandidate& c) { return c.proved == 0; });
             const auto best =
                 std::ranges::min_element(trees, {}, [](const TreeCandidate& c) { return c.fit.bits; });
@@ -145,9 +146,8 @@ class TreeSearch {
         return {};
     }
 
-    // Of each setting a tree, certified or given up; none where one has too many regions.
-    std::vector<TreeCandidate> mended(std::span<const Shares> settings, double tolerance,
-                                      double certified) const {
+    // Of each setting a tree; none where one has too many regions.
+    std::vector<TreeCandidate> fitted(std::span<const Shares> settings, double tolerance) const {
         std::vector<TreeCandidate> fits;
         for (const Shares& shares : settings) {
             const TreeFitOptions options = options_for(shares, tolerance);
@@ -155,7 +155,6 @@ class TreeSearch {
             if (fits.back().fit.regions.empty()) return {};
             if (fits.back().fit.mostly_whole()) break;  // no seams that want other shares
         }
-        if (std::isfinite(least_bits(fits))) mend(fits, certified);
         return fits;
     }
 
