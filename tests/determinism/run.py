@@ -1,7 +1,8 @@
 """Same input, same bytes: one hash a scene over compilers, optimisation levels, thread counts and machines.
 
-Builds `determinism_driver` with each preset below, runs it with one and with two threads, and compares what it
-prints. The driver compresses generated meshes and hashes the files, the rebuilt meshes and values of the field.
+Builds `determinism_driver` with each preset below, runs it, with one thread here and two there, and compares what it
+prints; with --all on more builds, and with both. The driver compresses generated meshes and hashes the files, the
+rebuilt meshes and values of the field.
 """
 
 from __future__ import annotations
@@ -17,12 +18,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# preset: the compiler it needs, thread counts to try, and the emulator that runs it
-PRESETS: dict[str, tuple[str, list[int], list[str]]] = {
-    "release": ("g++", [1, 2], []),
-    "gcc-O0": ("g++", [2], []),
-    "clang-O3": ("clang++", [1, 2], []),
-    "aarch64": ("aarch64-linux-gnu-g++", [1], ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"]),
+# preset: the compiler it needs, thread counts to try, with --all also, and the emulator that runs it
+PRESETS: dict[str, tuple[str, list[int], list[int], list[str]]] = {
+    "release": ("g++", [2], [1], []),
+    "gcc-O0": ("g++", [], [2], []),
+    "clang-O3": ("clang++", [1], [2], []),
+    "aarch64": ("aarch64-linux-gnu-g++", [1], [], ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"]),
 }
 
 
@@ -41,10 +42,13 @@ def build(preset: str, jobs: int) -> Path:
     return folder / "tests" / "determinism" / "determinism_driver"
 
 
-def hashes(jobs: int) -> Iterator[tuple[str, str, str]]:
+def hashes(jobs: int, everything: bool) -> Iterator[tuple[str, str, str]]:
     """(build, scene, hash), for every build that can be made here."""
     runs: list[tuple[str, list[str]]] = []
-    for preset, (compiler, thread_counts, emulator) in PRESETS.items():
+    for preset, (compiler, always, also, emulator) in PRESETS.items():
+        thread_counts = always + also if everything else always
+        if not thread_counts:
+            continue
         if missing := [tool for tool in [compiler, *emulator[:1]] if not shutil.which(tool)]:
             print(f"{preset}: left out, no {missing[0]} here")
             continue
@@ -64,8 +68,10 @@ def hashes(jobs: int) -> Iterator[tuple[str, str, str]]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--all", action="store_true", help="more builds, each with one and with two threads")
+    arguments = parser.parse_args()
     seen: dict[str, dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
-    for build_name, scene, digest in hashes(parser.parse_args().jobs):
+    for build_name, scene, digest in hashes(arguments.jobs, arguments.all):
         seen[scene][digest].append(build_name)
     if len(seen) < 6:
         print(f"only {len(seen)} scenes")
