@@ -135,7 +135,7 @@ class TreeSearch {
             std::vector<TreeCandidate> trees = fitted(shares, share * certified);
             if (trees.empty()) continue;
             const double least = least_bits(trees);
-            if (!std::isfinite(least)) break;
+            if (!std::isfinite(least)) continue;
             mend(trees, certified);
             std::erase_if(trees, [](const TreeCandidate& c) { return c.proved == 0; });
             const auto best =
