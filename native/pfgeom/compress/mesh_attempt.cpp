@@ -7,6 +7,7 @@
 #include "pfgeom/fit/simplify.h"
 #include "pfgeom/function/edges_of_faces.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace pfgeom {
@@ -31,7 +32,7 @@ std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
         try {
             return mesh_of(object, {.chord = goal.diagonal * exp2_eighths(-2 * int{code})}).faces.size();
         } catch (const LimitExceeded&) {
-            return kAnyBytes;
+            return SIZE_MAX;
         }
     };
     std::size_t count = triangles();
@@ -86,7 +87,7 @@ Outcome attempt_mesh(const WantedMesh& wanted, double share, bool curved, const 
     if (wanted.mirror) options.mirror = wanted.mirror->plane;
     const double faces =
         static_cast<double>(wanted.most_bytes) / (curved ? kLeastCurvedBytes : kLeastFlatBytes);
-    if (share > 0 && wanted.most_bytes < kAnyBytes) options.most_faces = static_cast<std::size_t>(faces);
+    if (wanted.most_bytes < kAnyBytes) options.most_faces = static_cast<std::size_t>(faces);
     outcome.object = fit_mesh_part(wanted.mirror ? wanted.mirror->mesh : goal.mesh, options, task);
     if (wanted.mirror) outcome.object.placements = wanted.mirror->placements;
     auto& part = std::get<MeshPart>(outcome.object.shape);

@@ -17,6 +17,24 @@ std::size_t samples_for(const TriangleMesh& mesh) {
 // largest in strips along the borders, by 0.6 % (stanford-bunny at 1e-4).
 constexpr double kRmsShare = 0.995, kRmsShareOfSheets = 0.985;
 
+// `rms_share`: of the tolerance, what the rms may be.
+Measured measured_within(const Goal& goal, const TriangleMesh& mesh, double rms_share, const Task& task) {
+    const bool by_max = goal.metric == Metric::max;
+    DeviationOptions options;
+    options.samples = by_max ? 0 : samples_for(goal.mesh);
+    options.bound = by_max;
+    options.certify_below = by_max ? goal.tolerance : 0;
+    const Bvh bvh(mesh);
+    const auto once_more = [&] { return measure_deviation(goal.mesh, goal.bvh, mesh, bvh, options, task); };
+    Deviation d = once_more();
+    if (by_max && !d.certified && d.max() <= goal.tolerance) {  // neither proved nor refuted
+        options.samples = samples_for(goal.mesh);
+        d = once_more();
+    }
+    const double error = by_max ? (d.certified ? d.max_bound() : d.max()) : d.rms();
+    return {d, error <= (by_max ? 1.0 : rms_share) * goal.tolerance};
+}
+
 }  // namespace
 
 Model model_of(const Goal& goal, const Outcome& outcome) {
@@ -39,20 +57,7 @@ void take_maximum(const Deviation& more, Deviation& deviation) {
 }
 
 Measured measure(const Goal& goal, const TriangleMesh& mesh, const Task& task) {
-    const bool by_max = goal.metric == Metric::max;
-    DeviationOptions options;
-    options.samples = by_max ? 0 : samples_for(goal.mesh);
-    options.bound = by_max;
-    options.certify_below = by_max ? goal.tolerance : 0;
-    const Bvh bvh(mesh);
-    const auto once_more = [&] { return measure_deviation(goal.mesh, goal.bvh, mesh, bvh, options, task); };
-    Deviation d = once_more();
-    if (by_max && !d.certified && d.max() <= goal.tolerance) {  // neither proved nor refuted
-        options.samples = samples_for(goal.mesh);
-        d = once_more();
-    }
-    const double error = by_max ? (d.certified ? d.max_bound() : d.max()) : d.rms();
-    return {d, error <= (by_max ? 1.0 : kRmsShare) * goal.tolerance};
+    return measured_within(goal, mesh, kRmsShare, task);
 }
 
 void prove(const Goal& goal, Outcome& outcome, const Task& task) {
@@ -69,11 +74,11 @@ void prove(const Goal& goal, Outcome& outcome, const Task& task) {
         return;
     }
     if (outcome.mesh.faces.empty()) return;
-    const Measured measured = measure(goal, outcome.mesh, task);
+    const bool sheet = std::holds_alternative<Sheet>(outcome.object.shape);
+    const double share = sheet ? kRmsShareOfSheets : kRmsShare;
+    const Measured measured = measured_within(goal, outcome.mesh, share, task);
     outcome.deviation = measured.deviation;
     outcome.holds = measured.holds;
-    if (goal.metric == Metric::rms && std::holds_alternative<Sheet>(outcome.object.shape))
-        outcome.holds = outcome.deviation.rms() <= kRmsShareOfSheets * goal.tolerance;
 }
 
 }  // namespace pfgeom

@@ -48,6 +48,7 @@ FitTarget::FitTarget(const TriangleMesh& island, std::size_t samples, std::size_
     const SurfaceSamples drawn = sample_surface(local, samples, 1);
     const std::vector<Vec3> vertex_normal = vertex_normals(local);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+    order.reserve(drawn.points.size());
     std::size_t closing = 0;
     for (std::size_t i = 0; i < drawn.points.size(); ++i) {
         if (static_cast<std::size_t>(drawn.faces[i]) >= own && closing++ % kFewer != 0) continue;
