@@ -7,6 +7,7 @@
 #include "pfgeom/fit/simplify.h"
 #include "pfgeom/function/edges_of_faces.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +21,7 @@ constexpr std::size_t kMostTriangles = 3;
 // Inside a patch chords are off by more than along its edges: where the proof misses the tolerance by less
 // than so much a finer default mesh is tried, with chords of half the length in the end.
 constexpr double kMaySuffice = 1.15;
-constexpr int kFinerCodes = 2, kMostFiner = 4;
+constexpr std::array kFinerCodes{1, 2, 4};
 // Of a face: the fewest were 2.3 curved (suzanne at 1e-2) and 1.03 flat (teapot at 2e-4).
 constexpr double kLeastCurvedBytes = 2, kLeastFlatBytes = 0.9;
 
@@ -53,7 +54,8 @@ bool too_many(const Goal& goal, const Outcome& outcome) {
 void prove_curved(const Goal& goal, Outcome& outcome, const Task& task) {
     prove(goal, outcome, task);
     const std::uint8_t code = outcome.object.mesh_code;
-    for (int finer = kFinerCodes; finer <= kMostFiner && code + finer <= 255; finer += kFinerCodes) {
+    for (const int finer : kFinerCodes) {
+        if (code + finer > 255) break;
         const bool may =
             goal.metric == Metric::max && outcome.deviation.max() <= kMaySuffice * goal.tolerance;
         if (outcome.holds || !may || too_many(goal, outcome)) break;

@@ -40,7 +40,7 @@ class Collapser {
     bool is_known(const Entry& e) const;
     bool is_harmless(const Entry& e) const { return e.harmless && !e.measured; }
     std::vector<Entry> likely_next();
-    void take(const Entry& e);
+    bool take(const Entry& e);
     void apply(const Entry& e, const MeasuredCollapse& found);
     void replace(const Entry& e, const Patch& patch);
 
@@ -105,10 +105,12 @@ MeasuredCollapse Collapser::measured(const Entry& e) {
     return *ahead_.take(e);
 }
 
-// Without a look at distances.
-void Collapser::take(const Entry& e) {
+// Without a look at distances. False: that will not do.
+bool Collapser::take(const Entry& e) {
     mesh_.patch_of_collapse(e.u, e.v, e.place, patch_);
+    if (!cost_.is_harmless(patch_)) return false;
     if (mesh_.keeps_orientation(patch_)) replace(e, patch_);
+    return true;
 }
 
 void Collapser::apply(const Entry& e, const MeasuredCollapse& found) {
@@ -138,10 +140,7 @@ void Collapser::run() {
         queue_.pop();
         task_.check();
         if (!is_current(top) || !mesh_.may_collapse(top.u, top.v)) continue;
-        if (is_harmless(top)) {
-            take(top);
-            continue;
-        }
+        if (is_harmless(top) && take(top)) continue;
         const MeasuredCollapse found = measured(top);
         if (is_known(top)) {
             apply(top, found);

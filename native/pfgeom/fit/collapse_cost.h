@@ -17,6 +17,8 @@ class CollapseCost {
 
     /// Of an edge, by its quadrics.
     CollapseEntry estimate(std::int32_t u, std::int32_t v, std::uint32_t clock) const;
+    /// Of an estimate that says so: is the moving vertex near the plane of each face that goes?
+    bool is_harmless(const Patch& patch) const;
     /// What is added to a cost, so that between equal ones shorter edges go first.
     double of_length(std::int32_t u, std::int32_t v) const;
     /// The place of the quadrics, fitted to the samples where that is better.

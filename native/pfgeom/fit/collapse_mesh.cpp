@@ -1,6 +1,7 @@
 #include "pfgeom/fit/collapse_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfgeom {
 namespace {
@@ -27,13 +28,15 @@ Vec3 doubled_area(const std::array<Vec3, 3>& t) {
 }
 
 // A face may turn by up to 78 degrees at once, and become flatter than kFlattest (its height over its longest
-// edge) only if it was flatter before: else it would be folded over by the next rounding to the grid.
+// edge) only if it was flatter before, or is too high for the next rounding to the grid to fold it over.
 constexpr double kLeastCosine = 0.2, kFlattest = 0.02;
 
 }  // namespace
 
-CollapseMesh::CollapseMesh(const TriangleMesh& mesh, bool curved, std::optional<AxisPlane> mirror)
+CollapseMesh::CollapseMesh(const TriangleMesh& mesh, bool curved, std::optional<AxisPlane> mirror,
+                           double safe_height)
     : mirror_(mirror),
+      safe_height_(safe_height),
       points_(mesh.vertices),
       faces_(mesh.faces),
       bulges_(curved ? mesh.faces.size() : 0),
@@ -165,8 +168,10 @@ bool CollapseMesh::keeps_orientation(const Patch& patch) const {
         const Vec3 before = doubled_area(old), after = doubled_area(patch.triangles[i]);
         const double b = norm(before), a = norm(after);
         if (b > 0 && dot(before, after) < kLeastCosine * a * b) return false;
-        const double flatness = a / std::max(longest_squared(patch.triangles[i]), 1e-300);
-        if (flatness < kFlattest && flatness < b / std::max(longest_squared(old), 1e-300)) return false;
+        const double longest = std::max(longest_squared(patch.triangles[i]), 1e-300), flatness = a / longest;
+        const double height = flatness * std::sqrt(longest);
+        if (flatness >= kFlattest || height >= safe_height_) continue;
+        if (flatness < b / std::max(longest_squared(old), 1e-300)) return false;
     }
     return true;
 }

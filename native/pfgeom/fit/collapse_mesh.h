@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -40,8 +41,9 @@ struct Patch {
 
 class CollapseMesh {
   public:
-    explicit CollapseMesh(const TriangleMesh& mesh, bool curved = false,
-                          std::optional<AxisPlane> mirror = {});
+    /// `safe_height`: faces that are higher may be as long as they like.
+    explicit CollapseMesh(const TriangleMesh& mesh, bool curved = false, std::optional<AxisPlane> mirror = {},
+                          double safe_height = std::numeric_limits<double>::infinity());
 
     const Vec3& point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
     const Triangle& face(std::int32_t f) const { return faces_[static_cast<std::size_t>(f)]; }
@@ -103,6 +105,7 @@ class CollapseMesh {
     Vec3 begin(Patch& patch, Vec3 p, bool on_mirror) const;
 
     std::optional<AxisPlane> mirror_;
+    double safe_height_;
     std::vector<Vec3> points_;
     std::vector<Triangle> faces_;              // a removed one: -1, -1, -1
     std::vector<std::array<Vec3, 3>> bulges_;  // of each face, or empty: all are flat

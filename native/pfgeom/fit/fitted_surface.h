@@ -14,7 +14,7 @@ class FittedSurface {
 
     /// With the plane of the mirror, if there is one.
     Grid grid(double step) const;
-    CollapseMesh start(bool curved) const { return CollapseMesh(half_ ? *half_ : mesh_, curved, plane_); }
+    CollapseMesh start(bool curved) const;
     CollapseError error(double tolerance, double spacing, const Task& task) const;
     /// That all is measured against.
     const TriangleMesh& original() const { return half_ ? both_ : mesh_; }
@@ -23,6 +23,7 @@ class FittedSurface {
   private:
     const TriangleMesh& mesh_;
     Metric metric_;
+    double goal_;
     Box box_;
     std::optional<MirrorPlane> mirror_;
     std::optional<AxisPlane> plane_;  // as the grid has it

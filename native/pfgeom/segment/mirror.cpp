@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace pfgeom {
@@ -48,20 +47,24 @@ class MirrorSearch {
           samples_(sample_surface(mesh, kSamples, kSeed).points) {}
 
     std::optional<Mirror> run(const Task& task) {
-        std::optional<Mirror> best;
-        double least = std::numeric_limits<double>::infinity();
+        struct Found {
+            double distance;
+            Mirror mirror;
+        };
+        std::vector<Found> found;
         for (const Vec3& normal : normals()) {
             task.check();
             Mirror m{normal, dot(normal, moments_.centroid), 0};
             if (distance(m, kFew) > kHopeless * size_) continue;
             const double d = improved(m, false);
-            if (!(d < least) || !divides(m)) continue;
-            least = d;
-            best = m;
+            if (d <= most_ && divides(m)) found.push_back({d, m});
         }
-        if (!best || least > most_) return {};
-        prefer_axis(*best, least);
-        return measure(*best, task) ? best : std::nullopt;
+        std::ranges::stable_sort(found, {}, &Found::distance);
+        for (auto& [d, mirror] : found) {
+            prefer_axis(mirror, d);
+            if (measure(mirror, task)) return mirror;
+        }
+        return {};
     }
 
   private:
@@ -162,16 +165,23 @@ class MirrorSearch {
         }
     }
 
+    // Vertices alone do not tell: the rims of a hole lie on the flat sides that have none.
     bool measure(Mirror& mirror, const Task& task) const {
         double worst = 0;
-        for (const Vec3& p : mesh_.vertices) {
+        const auto is_near = [&](const Vec3& p) {
             task.check();
             const ClosestPoint found = bvh_.closest(mirror.image(p), most_);
-            if (found.face < 0) return false;
-            worst = std::max(worst, found.squared_distance);
-        }
+            if (found.face >= 0) worst = std::max(worst, found.squared_distance);
+            return found.face >= 0;
+        };
+        const auto middle_is_near = [&](const Triangle& t) {
+            const auto at = [&](std::size_t k) { return mesh_.vertices[static_cast<std::size_t>(t[k])]; };
+            return is_near((at(0) + at(1) + at(2)) / 3);
+        };
+        const bool holds = std::all_of(mesh_.vertices.begin(), mesh_.vertices.end(), is_near) &&
+                           std::all_of(mesh_.faces.begin(), mesh_.faces.end(), middle_is_near);
         mirror.deviation = std::sqrt(worst);
-        return true;
+        return holds;
     }
 
     static Vec3 across(const Vec3& n) {

@@ -67,6 +67,22 @@ TEST(Simplify, KeepsTheToleranceOnEveryShapeWithMostOfItsShare) {
     EXPECT_LE(missed, 4);  // of 51
 }
 
+// In the mean of the plane quadrics the wall of a thin disc counts for nothing beside its flat sides.
+TEST(Simplify, TheWallOfAThinDiscStays) {
+    const TriangleMesh disc = shapes::scaled(shapes::cylinder(512), {1, 1, 0.001});
+    for (const double tolerance : {1e-3, 3e-4})
+        EXPECT_LE(two_sided(disc, fitted(disc, tolerance)), tolerance);
+}
+
+// Its strips are narrower than any that may be made, but far too high to be folded over by the grid.
+TEST(Simplify, TheStripsOfALongRodBecomeFewer) {
+    const TriangleMesh rod = shapes::scaled(shapes::cylinder(256), {1, 1, 100});
+    const double tolerance = 5e-3;
+    const TriangleMesh found = fitted(rod, tolerance);
+    EXPECT_LE(two_sided(rod, found), tolerance);
+    EXPECT_LT(found.faces.size(), rod.faces.size() / 4);
+}
+
 TEST(Simplify, ShareZeroIsExactButForTheGrid) {
     for (const TriangleMesh& mesh : named_shapes()) {
         const TriangleMesh result = fitted(mesh, 1e-2, 0);

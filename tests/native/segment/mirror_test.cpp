@@ -56,6 +56,21 @@ TEST(Mirror, WhatIsNotSymmetricDoesNotBendThePlane) {
     EXPECT_GT(mirror->deviation, 5e-4 * size);
 }
 
+// All vertices have images on the surface: the rims of the hole are on flat sides.
+TEST(Mirror, AHoleInOneHalfAloneIsSeen) {
+    const TriangleMesh box = shapes::scaled(shapes::cube(), {3, 2, 0.5});
+    EXPECT_TRUE(mirror_of(box, 1e-3));
+    const TriangleMesh bore = shapes::scaled(shapes::cylinder(), {0.2, 0.2, 0.5});
+    TriangleMesh wall = shapes::translated(shapes::flipped(bore), {1.3, 0.8, 0});
+    std::erase_if(wall.faces, [&](const Triangle& t) {
+        const auto z = [&](std::size_t k) { return wall.vertices[static_cast<std::size_t>(t[k])].z; };
+        return z(0) == z(1) && z(1) == z(2);
+    });
+    const auto mirror = mirror_of(shapes::joined(box, wall), 1e-3);
+    ASSERT_TRUE(mirror);
+    EXPECT_EQ(mirror->normal, (Vec3{0, 0, 1}));
+}
+
 TEST(Mirror, AFreeFormHasNone) {
     TriangleMesh mesh = shapes::bumpy_sphere();
     for (Vec3& v : mesh.vertices) v += Vec3{0.2 * v.y * v.z, 0.1 * v.x * v.x * v.y, 0.2 * v.x * v.y};
