@@ -181,7 +181,7 @@ blender: $(stamp)/blender
 
 bench: $(stamp)/apt-check $(stamp)/venv-build
 	cmake --preset release -DPFGEOM_BUILD_BENCHMARKS=ON >/dev/null
-	cmake --build $(release) --parallel $(jobs) --target pfgeom_bench
+	cmake --build $(release) --parallel $(jobs) --target pfgeom_bench simplify_mesh mesh_part
 	$(release)/tests/bench/pfgeom_bench
 
 format: check-tools
