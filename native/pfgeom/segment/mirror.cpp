@@ -35,6 +35,9 @@ constexpr double kWorthwhile = 0.99;
 // of `most`): files of 1e-3 diagonals' rounding, planes of exact models.
 constexpr double kAxisFactor = 1.2, kAxisShare = 1.0 / 32;
 constexpr double kNearAxis = 0.99;  // the cosine
+// Middles of faces may be so much farther from their images than vertices: halves that are triangulated each
+// in its own way differ there (spot).
+constexpr double kMiddles = 3;
 
 class MirrorSearch {
   public:
@@ -176,7 +179,7 @@ class MirrorSearch {
         };
         const auto middle_is_near = [&](const Triangle& t) {
             const auto at = [&](std::size_t k) { return mesh_.vertices[static_cast<std::size_t>(t[k])]; };
-            return is_near((at(0) + at(1) + at(2)) / 3);
+            return bvh_.closest(mirror.image((at(0) + at(1) + at(2)) / 3), kMiddles * most_).face >= 0;
         };
         const bool holds = std::all_of(mesh_.vertices.begin(), mesh_.vertices.end(), is_near) &&
                            std::all_of(mesh_.faces.begin(), mesh_.faces.end(), middle_is_near);

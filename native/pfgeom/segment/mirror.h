@@ -13,7 +13,7 @@ namespace pfgeom {
 struct Mirror {
     Vec3 normal;
     double at = 0;
-    double deviation = 0;  ///< the farthest that the image of a vertex, or of the middle of a face, is from the surface
+    double deviation = 0;  ///< the farthest that the image of a vertex is from the surface
 
     Vec3 image(const Vec3& p) const { return p - 2 * (dot(normal, p) - at) * normal; }
 };
