@@ -53,8 +53,9 @@ int main(int count, char** arguments) {
     }
     try {
         const TriangleMesh mesh = prepare_mesh(read_mesh(arguments[1]), 0).mesh;
-        if (std::strcmp(arguments[2], "bits") != 0) within(mesh, std::atof(arguments[2]));
-        for (int i = 3; i < count; ++i) on_grid(mesh, std::clamp(std::atoi(arguments[i]), 1, 24));
+        if (std::strcmp(arguments[2], "bits") != 0) within(mesh, std::strtod(arguments[2], nullptr));
+        for (int i = 3; i < count; ++i)
+            on_grid(mesh, static_cast<int>(std::clamp(std::strtol(arguments[i], nullptr, 10), 1L, 24L)));
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
