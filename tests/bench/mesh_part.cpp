@@ -28,7 +28,7 @@ void within(const TriangleMesh& mesh, double share) {
     const Outcome outcome = try_mesh(goal, estimate, kAnyBytes, {});
     const auto& part = std::get<MeshPart>(outcome.object.shape);
     std::printf("%zu bytes, %zu %s, largest distance %.3f of the share\n", outcome.bytes, part.faces.size(),
-                part.bulges.empty() ? "triangles" : "patches", outcome.deviation.max() / goal.tolerance);
+                part.curved() ? "patches" : "triangles", outcome.deviation.max() / goal.tolerance);
 }
 
 void on_grid(const TriangleMesh& mesh, int bits) {

@@ -178,6 +178,7 @@ class MirrorSearch {
             return found.face >= 0;
         };
         const auto middle_is_near = [&](const Triangle& t) {
+            task.check();
             const auto at = [&](std::size_t k) { return mesh_.vertices[static_cast<std::size_t>(t[k])]; };
             return bvh_.closest(mirror.image((at(0) + at(1) + at(2)) / 3), kMiddles * most_).face >= 0;
         };
