@@ -20,15 +20,26 @@ double weight_of_corner(const std::array<Vec3, 3>& t, const Vec3& q) {
     return area > 0 ? std::clamp(dot(cross(t[1] - q, t[2] - q), normal) / area, 0.0, 1.0) : 0;
 }
 
-// Points of a new face: of a curved one by their weights.
+// Points of a new face: of a curved one by their weights. The surface over a part of it is within the hull of
+// corners and sides.
+using Corners = std::array<Vec3, 3>;
 struct CurvedFace {
     CurvedTriangle face;
     Vec3 operator()(const Vec3& weights) const { return face.at(weights); }
-    static constexpr bool flat() { return false; }
+    Vec3 side(const Vec3& a, const Vec3& b) const {
+        return (face.at(a) + face.at(b) - face.bend(a - b)) * 0.5;
+    }
+    double farthest(const Corners& part, const Bvh& bvh, std::int32_t other) const {
+        const auto& [a, b, c] = part;
+        return std::max(bvh.farthest_corner({face.at(a), face.at(b), face.at(c)}, other),
+                        bvh.farthest_corner({side(a, b), side(b, c), side(c, a)}, other));
+    }
 };
 struct FlatFace {
     Vec3 operator()(const Vec3& p) const { return p; }
-    static constexpr bool flat() { return true; }
+    double farthest(const Corners& part, const Bvh& bvh, std::int32_t other) const {
+        return bvh.farthest_corner(part, other);
+    }
 };
 
 }  // namespace
@@ -114,7 +125,7 @@ double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface
         worst = std::max(worst, distance);
         const double most = std::max(worst, harmless);
         if (distance + rise <= most) continue;
-        if (surface.flat() && bvh_.farthest_corner({a, b, c}, found.face) <= std::max(most, enough)) continue;
+        if (surface.farthest({a, b, c}, bvh_, found.face) <= std::max(most, enough)) continue;
         const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
         parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }

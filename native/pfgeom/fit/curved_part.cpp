@@ -17,8 +17,8 @@ constexpr int kBulgeCode = 4;
 // What collapses may use before the vertices are on the grid (then nearly all find a place), and after: what
 // is collapsed on the grid has paid for its rounding already.
 constexpr double kFirstShare = 0.75, kLaterShare = 0.97;
-// What coarser lattices may use, and whole steps of the bulges.
-constexpr double kLatticeShare = 0.98, kBulgeShare = 1;
+// What coarser lattices may use, and whatever is mended in the end, of the whole tolerance.
+constexpr double kLatticeShare = 0.98, kAll = 0.999;
 constexpr int kRounds = 3;
 // The first collapses leave up to so many times the faces that there are in the end (1.28 to 1.43 on five
 // meshes).
@@ -58,7 +58,9 @@ Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options,
     }
     if (too_many(1)) return part_on_grid({}, grid);
     snap_vertices(work, error, within(kLatticeShare), grid, true, task);
-    Object object = mended_part(surface.original(), work, error, within(kBulgeShare), grid, bulge_code, task);
+    // Nothing is gained by mending what keeps the tolerance itself.
+    const double all = by_max ? std::max(1.0, kAll / options.share) : 1;
+    Object object = mended_part(surface.original(), work, error, within(all), grid, bulge_code, task);
     task.report(1, "patches");
     return object;
 }

@@ -96,15 +96,16 @@ class Snapper {
         error_.refit(fitted, true);
         return fitted.triangles[0][0];
     }
-    // Leaves the patch of the move in patch_. The bulges of a curved one follow where that is better.
-    double cost(std::int32_t v, const GridPoint& q, double limit) {
+    // Leaves the patch of the move in patch_. The bulges of a curved one follow where it would cost more than
+    // `enough` without. Infinite if it is over `most`.
+    double cost(std::int32_t v, const GridPoint& q, double enough, double most) {
         mesh_.patch_of_move(v, grid_.point(q), patch_);
         if (!mesh_.keeps_orientation(patch_)) return kInfinity;
-        const double plain = error_.forward(patch_, patch_.curved() ? kMayBeBent * limit : limit);
-        if (!patch_.curved() || plain <= limit || plain == kInfinity) return plain;
+        const double plain = error_.forward(patch_, patch_.curved() ? kMayBeBent * most : most);
+        if (!patch_.curved() || plain <= enough || plain == kInfinity) return plain;
         bent_ = patch_;
         error_.refit(bent_, false);
-        const double bent = error_.forward(bent_, limit);
+        const double bent = error_.forward(bent_, most);
         if (!(bent < plain)) return plain;
         std::swap(patch_, bent_);
         return bent;
@@ -143,7 +144,7 @@ class Snapper {
         double most = limit;
         for (const std::int32_t h : {height, height - 1, height + 1}) {
             q[w] = h;
-            const double c = cost(v, q, most);
+            const double c = cost(v, q, most, most);
             if (!(c <= most)) continue;
             candidates[count] = {c, h};
             if (patch_.curved())
@@ -156,7 +157,7 @@ class Snapper {
         for (const Candidate& candidate : candidates) {
             if (candidate.cost == kInfinity) break;
             q[w] = candidate.height;
-            cost(v, q, limit);
+            cost(v, q, limit, limit);
             if (error_.stays_near(patch_, limits_.backward * limit / limits_.forward)) return take(v);
         }
         return false;
@@ -175,9 +176,7 @@ class Snapper {
         const auto cost_of = [&](const GridPoint& q) {
             const auto known = std::ranges::find(candidates, q, &Candidate::q);
             if (known != candidates.end()) return known->cost;
-            mesh_.patch_of_move(v, grid_.point(q), patch_);
-            if (!mesh_.keeps_orientation(patch_)) return kInfinity;
-            return error_.forward(patch_, least.size() < kMostTrials ? kInfinity : least.front());
+            return cost(v, q, limits_.forward, least.size() < kMostTrials ? kInfinity : least.front());
         };
         for (const GridPoint& middle : {nearest(v, mesh_.point(v)), nearest(v, fitted_place())}) {
             for (std::int32_t i = 0; i < 27; ++i) {
@@ -196,14 +195,15 @@ class Snapper {
         candidates.resize(kMostTrials);  // the way back is dear to measure
         for (const auto& [forward, q] : candidates) {
             if (!(forward < best.cost) || best.cost <= limits_.forward) break;
-            mesh_.patch_of_move(v, grid_.point(q), patch_);
+            cost(v, q, limits_.forward, kInfinity);
             const double most = std::min(best.cost, 3 * limits_.backward);
             const bool by_max = limits_.metric == Metric::max;
             const double backward = error_.backward(patch_, most, by_max ? forward : most);
             const double worst = by_max ? std::max(forward, backward) : forward;
             if (backward < kInfinity && worst < best.cost) best = {worst, q};
         }
-        mesh_.patch_of_move(v, grid_.point(best.q), patch_);
+        if (cost(v, best.q, limits_.forward, kInfinity) == kInfinity)
+            mesh_.patch_of_move(v, grid_.point(best.q), patch_);
         take(v);
     }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace pfgeom {
@@ -17,11 +18,12 @@ namespace {
 // of rocker-arm were left after four: from the third on what is left is divided.
 constexpr std::size_t kRounds = 6, kPatience = 2;
 // At a tight border more can become wrong with each round (bunny: 861, 1,004, 11,850, 217,019 points): so
-// many times before. And what is wrong all over the mesh, at more than so many points a face, is not mended
-// one by one.
-constexpr std::size_t kDiverging = 4, kMostOfFace = 4, kFew = 1000;
-// What is mended may use this share of the limits, which leaves some to the steps of the bulges.
-constexpr double kShare = 0.99;
+// many times before. And what is wrong all over the mesh, at one vertex for so many faces, is not mended one
+// by one.
+constexpr std::size_t kDiverging = 4, kFaces = 8, kFew = 20;
+// What is mended may use this share of the limits, which leaves some to the steps of the bulges; in the end
+// curved faces may be over them by so much, which the reserve for chords of the default mesh holds.
+constexpr double kShare = 0.99, kInTheEnd = 1.03;
 
 EdgeEnds longest_edge(const CollapseMesh& mesh, std::int32_t face) {
     const auto corners = mesh.corners(face);
@@ -33,13 +35,20 @@ EdgeEnds longest_edge(const CollapseMesh& mesh, std::int32_t face) {
     return {mesh.face(face)[longest], mesh.face(face)[(longest + 1) % 3]};
 }
 
+std::vector<std::int32_t> faces_of(const std::vector<MissedPoint>& missed) {
+    std::vector<std::int32_t> faces;
+    for (const MissedPoint& m : missed) faces.push_back(m.face);
+    sort_unique(faces);
+    return faces;
+}
+
 // What is around them.
 std::vector<std::int32_t> vertices_of(const CollapseMesh& mesh, const std::vector<EdgeEnds>& edges,
                                       const std::vector<MissedPoint>& missed) {
     std::vector<std::int32_t> vertices;
     for (const EdgeEnds& ends : edges) vertices.insert(vertices.end(), ends.begin(), ends.end());
-    for (const MissedPoint& m : missed) {
-        const Triangle& t = mesh.face(m.face);
+    for (const std::int32_t f : faces_of(missed)) {
+        const Triangle& t = mesh.face(f);
         vertices.insert(vertices.end(), t.begin(), t.end());
     }
     sort_unique(vertices);
@@ -63,10 +72,13 @@ void divide(CollapseMesh& mesh, CollapseError& error, const std::vector<EdgeEnds
         const std::int32_t middle = mesh.split(u, v);
         error.make_room(mesh);
         mesh.patch_of_move(middle, error.placed(mesh.point(middle)), patch);
+        Patch fitted = patch;
         if (patch.curved())
-            error.refit(patch, true);
+            error.refit(fitted, true);
         else
-            patch.move_to(error.placed(error.fitted(patch)));
+            fitted.move_to(error.placed(error.fitted(patch)));
+        const double plain = error.forward(patch, std::numeric_limits<double>::infinity());
+        if (mesh.keeps_orientation(fitted) && error.forward(fitted, plain) < plain) patch = std::move(fitted);
         error.commit(patch);
         mesh.move(middle, patch);
         touched.insert(touched.end(), patch.after.begin(), patch.after.end());
@@ -79,14 +91,18 @@ EdgeEnds longest_edge_at(const CollapseMesh& mesh, std::int32_t v) {
     return {v, *std::ranges::max_element(ends, {}, squared)};
 }
 
+CollapseLimits share_of(CollapseLimits limits, double share) {
+    limits.forward *= share;
+    limits.backward *= share;
+    return limits;
+}
+
 }  // namespace
 
 Object mended_part(const TriangleMesh& original, CollapseMesh& mesh, CollapseError& error,
                    const CollapseLimits& limits, const Grid& grid, int bulge_code, const Task& task) {
     const bool by_max = limits.metric == Metric::max;
-    CollapseLimits within = limits;
-    within.forward *= kShare;
-    within.backward *= kShare;
+    const CollapseLimits within = share_of(limits, kShare);
     std::vector<std::int32_t> open;
     Object best;  // dividing can make things worse: rocker-arm at 1e-3 16 places before, 59,101 after
     std::size_t least = SIZE_MAX;
@@ -106,20 +122,27 @@ Object mended_part(const TriangleMesh& original, CollapseMesh& mesh, CollapseErr
         }
         if (!by_max) return object;
         const std::vector<MissedPoint> missed = missed_points(original, mesh, limits.forward, task);
-        const std::size_t wrong = edges.size() + missed.size();
-        const bool hopeless = wrong > kFew + kMostOfFace * mesh.face_count() ||
-                              (round >= kPatience && wrong > kDiverging * before);
-        if (wrong < least) best = std::move(object);
+        std::vector<std::int32_t> vertices = vertices_of(mesh, edges, missed);
+        const std::size_t wrong = vertices.size();
+        const bool hopeless =
+            wrong > kFew + mesh.face_count() / kFaces || (round >= kPatience && wrong > kDiverging * before);
+        if (wrong <= least) best = std::move(object);
         least = std::min(least, wrong);
-        if (wrong == 0 || hopeless || round == kRounds) return best;
+        if (hopeless || round == kRounds) return best;
+        if (wrong == 0) {  // bulges were looked at less closely
+            if (!mesh.curved()) return best;
+            error.look(kScrutiny);
+            vertices = vertices_over(mesh, error, share_of(limits, kInTheEnd), task);
+            if (vertices.empty()) return best;
+        }
         before = wrong;
         error.add(missed);
-        const std::vector<std::int32_t> vertices = vertices_of(mesh, edges, missed);
         if (round >= kPatience) {
-            for (const MissedPoint& m : missed) edges.push_back(longest_edge(mesh, m.face));
+            for (const std::int32_t f : faces_of(missed)) edges.push_back(longest_edge(mesh, f));
             divide(mesh, error, edges);
         }
-        open = mend_vertices(mesh, error, within, grid, vertices, task);
+        open = mend_vertices(mesh, error, within, grid, std::move(vertices), task);
+        if (mesh.curved()) error.look(kLook);
     }
 }
 

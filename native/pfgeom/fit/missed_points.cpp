@@ -13,13 +13,9 @@ namespace {
 // Each curved face is looked for as so many flat ones along a side: a chord is off by a sixteenth of a bulge,
 // which the foot point on the curved one makes good.
 constexpr int kParts = 4;
-// How fast distances are taken to change (1 would be a proof), and the smallest part of a face that is looked
-// at, as shares of the limit and of the face's longest edge. Curved faces are looked at less closely, in half
-// the time: what is found in the proof on the file's own bytes a finer default mesh mends.
-struct Fineness {
-    double slope, finest, finest_part;
-};
-constexpr Fineness kOfFlat{1, 0.02, 1.0 / 128}, kOfCurved{0.7, 0.1, 1.0 / 64};
+// The smallest parts of faces that are looked at, as shares of the limit. Around a point that is missed,
+// which stands for its neighbours, they are larger, also as shares of the face's longest edge.
+constexpr double kFinest = 0.02, kAroundMissed = 0.5, kPartAroundMissed = 1.0 / 64;
 
 constexpr std::size_t kChunk = 64;  // faces
 
@@ -48,13 +44,34 @@ class Surface {
 
     // Is all of the part within the limit of one face, as closest() gives it in `hint`?
     bool within_limit_of(std::int32_t hint, const Corners& part) const {
-        return !mesh_.curved() && bvh_.farthest_corner(part, hint) <= limit_;
+        if (!mesh_.curved()) return bvh_.farthest_corner(part, hint) <= limit_;
+        return within_limit_of(curved(static_cast<std::size_t>(hint / (kParts * kParts))), part);
     }
 
   private:
     CurvedTriangle curved(std::size_t row) const {
         const std::int32_t f = left_[row];
         return {mesh_.corners(f), {mesh_.bulge(f, 0), mesh_.bulge(f, 1), mesh_.bulge(f, 2)}};
+    }
+
+    // From each point of the part to that of the face whose weights are mixed alike from the corners' foot
+    // points: a quadratic Bézier triangle of vectors, none of which is longer than the longest of its control
+    // points. The second differences of the face make its sides (CurvedTriangle::bend of a difference).
+    bool within_limit_of(const CurvedTriangle& face, const Corners& part) const {
+        const double most = limit_ * limit_;
+        Corners off, weights;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const FootPoint foot = foot_point(part[k], face);
+            if (foot.squared > most) return false;
+            off[k] = part[k] - foot.point;
+            weights[k] = foot.weights;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            const Vec3 side = (off[k] + off[next] + face.bend(weights[k] - weights[next])) * 0.5;
+            if (squared_norm(side) > most) return false;
+        }
+        return true;
     }
 
     // kParts² faces of each curved one, in its place.
@@ -86,12 +103,11 @@ class Surface {
 
 class Search {
   public:
-    Search(const Surface& surface, const Fineness& fineness)
-        : surface_(surface), limit_(surface.limit()), fineness_(fineness) {}
+    explicit Search(const Surface& surface) : surface_(surface), limit_(surface.limit()) {}
 
     void look_along(const Corners& face, std::int32_t origin, std::vector<MissedPoint>& missed) {
-        const double longest = std::sqrt(longest_squared(face));
-        const double finest = std::max(fineness_.finest * limit_, fineness_.finest_part * longest);
+        const double longest = std::sqrt(longest_squared(face)), finest = kFinest * limit_;
+        const double around = std::max(kAroundMissed * limit_, kPartAroundMissed * longest);
         open_.assign({face});
         while (!open_.empty()) {
             const auto [a, b, c] = open_.back();
@@ -99,10 +115,13 @@ class Search {
             const Vec3 middle = (a + b + c) / 3;
             const MissedPoint found = surface_.closest(middle, origin, hint_);
             const double distance = std::sqrt(found.squared);
-            if (distance > limit_) missed.push_back(found);
             const double reach = std::sqrt(
                 std::max({squared_norm(a - middle), squared_norm(b - middle), squared_norm(c - middle)}));
-            if (reach < finest || distance + fineness_.slope * reach <= limit_) continue;
+            if (distance > limit_) {
+                missed.push_back(found);
+                if (reach < around) continue;
+            }
+            if (reach < finest || distance + reach <= limit_) continue;
             if (surface_.within_limit_of(hint_, {a, b, c})) continue;
             const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
             open_.insert(open_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
@@ -112,7 +131,6 @@ class Search {
   private:
     const Surface& surface_;
     double limit_;
-    Fineness fineness_;
     std::int32_t hint_ = -1;
     std::vector<Corners> open_;
 };
@@ -124,7 +142,7 @@ std::vector<MissedPoint> missed_points(const TriangleMesh& original, const Colla
     const Surface surface(mesh, limit, task);
     std::vector<std::vector<MissedPoint>> of_chunks((original.faces.size() + kChunk - 1) / kChunk);
     parallel_chunks(original.faces.size(), kChunk, task, [&](std::size_t begin, std::size_t end) {
-        Search search(surface, mesh.curved() ? kOfCurved : kOfFlat);
+        Search search(surface);
         for (std::size_t f = begin; f < end; ++f) {
             Corners corners;
             for (std::size_t k = 0; k < 3; ++k)

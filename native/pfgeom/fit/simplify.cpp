@@ -29,6 +29,8 @@ constexpr int kRounds = 3;
 constexpr double kSpacing = 3;
 // ... but not more than some this many in all.
 constexpr double kMostSamples = 2e5;
+// What is mended in the end may use so much, however little collapses had.
+constexpr double kAll = 0.999;
 // The rms says nothing about single points: they may be this many tolerances off.
 constexpr double kWorstOfRms = 8;
 
@@ -63,7 +65,9 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
         CollapseError snapped_error = error;
         if (!snap_vertices(snapped, snapped_error, outer, grid, step == kSteps.back(), task)) continue;
         snapped_error.quantise(grid, 0);
-        object = mended_part(surface.original(), snapped, snapped_error, outer, grid, 0, task);
+        CollapseLimits mended = outer;  // of the whole tolerance
+        if (by_max) mended.forward = mended.backward = options.tolerance * std::max(options.share, kAll);
+        object = mended_part(surface.original(), snapped, snapped_error, mended, grid, 0, task);
         break;
     }
     task.report(1, "simplify");
