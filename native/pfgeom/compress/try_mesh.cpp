@@ -35,23 +35,23 @@ std::optional<Outcome> search_rms(const WantedMesh& wanted, bool curved, std::si
     return best;
 }
 
-// What no look at the surface tells is some thousandths of the tolerance (armadillo at 1e-3: 1.0026 of it).
-constexpr double kFlatShare = 0.995;
+// What points in double precision do not tell, and the search for the worst one.
+constexpr double kFlatShare = 0.999;
 
-// What curved faces aim at where they missed, and how much less of the tolerance they take at a time. More
-// often where flat ones missed it too: these have a spot that less does not mend (beetle-alt at 2e-4), and
-// keep the whole input in the end.
-constexpr double kAimAgain = 0.985;
-constexpr int kCurvedAgain = 2, kCurvedForWantOfFlat = 5;
+// What curved faces aim at where they missed, how much less of the tolerance they take at a time, and how
+// often.
+constexpr double kAimAgain = 0.99;
+constexpr int kCurvedAgain = 2;
 double less_of(double share, double reached) {
     return share * std::clamp(kAimAgain / reached, 0.9, kAimAgain);
 }
 
-// What misses the tolerance by more is not saved by a few percent less of it (tri-fixed_top at 2e-4,
-// mirrored: 133.8, 133.7 and 134.0 tolerances with all of it, 0.96 and 0.9).
-constexpr double kFar = 1.5;
+// What misses the tolerance by more is not saved by a few percent less of it; nor by much less what has a
+// mirror whose halves differ by more in places (beetle-alt at 2e-4: 1.06 to 2.3 tolerances at any share).
+constexpr double kFar = 1.5, kFarMirrored = 1.05;
 bool misses_by_far(const WantedMesh& wanted, const Outcome& outcome) {
-    return outcome.deviation.max() > kFar * wanted.goal.tolerance;
+    const double far = wanted.mirror ? kFarMirrored : kFar;
+    return outcome.deviation.max() > far * wanted.goal.tolerance;
 }
 
 // After `outcome`: of less and less of the tolerance until one holds; the last always does. If it is mirrored
@@ -84,9 +84,8 @@ Outcome best_by_max(const WantedMesh& wanted, std::optional<MeshEstimate>& known
         if (curved.bytes < (wanted.mirror ? known->least_mirrored() : known->least)) return curved;
     }
     Outcome flat = attempt_mesh(wanted, kFlatShare, false, task);
-    const int most = flat.holds || wanted.mirror ? kCurvedAgain : kCurvedForWantOfFlat;
     double share = 1;
-    for (int i = 0; i < most; ++i) {
+    for (int i = 0; i < kCurvedAgain; ++i) {
         if (curved.holds || wanted.too_large(curved) || misses_by_far(wanted, curved)) break;
         if (flat.holds && curved.bytes >= flat.bytes) break;
         share = less_of(share, curved.deviation.max() / wanted.goal.tolerance);
