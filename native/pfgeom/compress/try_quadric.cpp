@@ -1,6 +1,7 @@
 #include "pfgeom/compress/candidate.h"
 #include "pfgeom/compress/mesh_code.h"
 #include "pfgeom/fit/quadric.h"
+#include "pfgeom/report/ellipsoid_bound.h"
 #include "pfgeom/report/tree_bound.h"
 
 #include <algorithm>
@@ -30,6 +31,8 @@ SetTree tree_of(const Quadric& quadric) {
 // What is proved of the quadric's surface, in the cube's units; 0: nothing.
 double proved_of(const Quadric& quadric, const TriangleMesh& mesh, const Bvh& bvh, double tolerance,
                  const Task& task) {
+    const std::optional<double> quick = bound_ellipsoid(quadric, mesh, bvh);
+    if (quick && *quick <= tolerance) return *quick;
     TreeBoundOptions options;
     options.labels = 0;
     const TreeBound bound = bound_tree(tree_of(quadric), mesh, bvh, tolerance, options, task);
