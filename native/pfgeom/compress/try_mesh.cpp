@@ -36,7 +36,7 @@ std::optional<Outcome> search_rms(const WantedMesh& wanted, bool curved, std::si
 }
 
 // What points in double precision do not tell, and the search for the worst one.
-constexpr double kFlatShare = 0.999;
+constexpr double kFlatShare = 0.997;
 
 // What curved faces aim at where they missed, how much less of the tolerance they take at a time, and how
 // often.
@@ -57,7 +57,7 @@ bool misses_by_far(const WantedMesh& wanted, const Outcome& outcome) {
 // After `outcome`: of less and less of the tolerance until one holds; the last always does. If it is mirrored
 // there is none such, and little is to be hoped for.
 Outcome flat_with_less(const WantedMesh& wanted, Outcome outcome, const Task& task) {
-    for (const double share : {0.95, 0.85, 0.7, 0.5, 0.0}) {
+    for (const double share : {0.98, 0.95, 0.85, 0.7, 0.5, 0.0}) {
         if (outcome.holds || wanted.too_large(outcome)) break;
         if (wanted.mirror && (share < 0.85 || misses_by_far(wanted, outcome))) break;
         outcome = attempt_mesh(wanted, share, false, task);

@@ -32,7 +32,7 @@ constexpr Closeness kGlance{0.13, 0.5, 10};
 /// For vertices on the grid.
 constexpr Closeness kLook{0.5, 0.2, 16};
 /// In the end: after kLook igea, armadillo and bunny had points 1.2 to 6 % over a maximum of 1e-3.
-constexpr Closeness kScrutiny{0.8, 0.05, 512};
+constexpr Closeness kScrutiny{1, 0.02, 512};
 
 class CollapseError {
   public:

@@ -60,9 +60,9 @@ Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options,
     snap_vertices(work, error, within(kLatticeShare), grid, true, task);
     // Nothing is gained by mending what keeps the tolerance itself.
     const double all = by_max ? std::max(1.0, kAll / options.share) : 1;
-    Object object = mended_part(surface.original(), work, error, within(all), grid, bulge_code, task);
+    MendedPart part = mended_part(surface.original(), work, error, within(all), grid, bulge_code, task);
     task.report(1, "patches");
-    return object;
+    return std::move(part.object);
 }
 
 }  // namespace pfgeom

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMendingRounds = 4;
 // With more vertices than this over the limit the grid is too coarse, and mending would only cost time.
-constexpr double kHopeless = 0.01;
+constexpr double kHopeless = 0.05;
 constexpr std::size_t kMostTrials = 10;
 // Nor is there hope with more vertices than these open after a round (half a bracket at a quarter of its
 // tolerance: 185 of 214, and minutes).

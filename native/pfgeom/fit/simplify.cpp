@@ -16,9 +16,8 @@ namespace {
 
 // Grid steps in tolerances, tried in turn until the vertices find places that keep the tolerance. Bytes at
 // 1e-3 of the diagonal, with lattices of up to 4 steps, at 0.6, 0.8 and 1: 1877, 1828, 1749 (os-plane), 1622,
-// 1543, 1502 (beetle-alt); but at 1 the maximum was up to 1.19 tolerances. Parts with many corners need the
-// finer ones.
-constexpr std::array<double, 4> kSteps{0.8, 0.55, 0.38, 0.25};
+// 1543, 1502 (beetle-alt). Parts with many corners need the finer ones.
+constexpr std::array<double, 6> kSteps{1.1, 0.95, 0.8, 0.55, 0.38, 0.25};
 // What collapses may use, so that vertices find places on coarse lattices. Of 0.75, 0.8 and 0.85 (os-plane:
 // 1941 bytes at the first, 1725 at the last) the largest is the best.
 constexpr double kCollapseShare = 0.85;
@@ -29,8 +28,6 @@ constexpr int kRounds = 3;
 constexpr double kSpacing = 3;
 // ... but not more than some this many in all.
 constexpr double kMostSamples = 2e5;
-// What is mended in the end may use so much, however little collapses had.
-constexpr double kAll = 0.999;
 // The rms says nothing about single points: they may be this many tolerances off.
 constexpr double kWorstOfRms = 8;
 
@@ -58,20 +55,19 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
     const CollapseLimits outer{options.metric, goal, by_max ? goal : kWorstOfRms * goal, size};
     relax_vertices(work, error, outer, task);
     if (work.face_count() > options.most_faces) return part_on_grid({}, surface.grid(goal));
-    Object object;
+    MendedPart part{{}, SIZE_MAX};
     for (const double step : kSteps) {
         const Grid grid = surface.grid(step * goal);
         CollapseMesh snapped = work;
         CollapseError snapped_error = error;
         if (!snap_vertices(snapped, snapped_error, outer, grid, step == kSteps.back(), task)) continue;
         snapped_error.quantise(grid, 0);
-        CollapseLimits mended = outer;  // of the whole tolerance
-        if (by_max) mended.forward = mended.backward = options.tolerance * std::max(options.share, kAll);
-        object = mended_part(surface.original(), snapped, snapped_error, mended, grid, 0, task);
-        break;
+        MendedPart found = mended_part(surface.original(), snapped, snapped_error, outer, grid, 0, task);
+        if (found.wrong < part.wrong) part = std::move(found);
+        if (part.wrong == 0) break;
     }
     task.report(1, "simplify");
-    return object;
+    return std::move(part.object);
 }
 
 }  // namespace pfgeom
