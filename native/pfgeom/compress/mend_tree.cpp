@@ -151,7 +151,7 @@ class Mender {
     const TreeTarget& target_;
     double certified_;
     bool given_up_ = false;
-    bool nearly_ = false;  // at the last rough look
+    bool nearly_ = false;  // at the last rough look, but for what has been mended by holding
     int rounds_ = 0;
     Random random_{1};
     int holds_ = 0;

@@ -35,7 +35,8 @@ std::optional<Outcome> search_rms(const WantedMesh& wanted, bool curved, std::si
     return best;
 }
 
-// What points in double precision do not tell, and the search for the worst one.
+// What the last look leaves: it ends at parts of a fiftieth of the tolerance (CollapseError::look(kScrutiny);
+// cheburashka at 2e-4: 1.0043 with 0.999 of it and parts of a twentieth).
 constexpr double kFlatShare = 0.997;
 
 // What curved faces aim at where they missed, how much less of the tolerance they take at a time, and how

@@ -20,25 +20,25 @@ double weight_of_corner(const std::array<Vec3, 3>& t, const Vec3& q) {
     return area > 0 ? std::clamp(dot(cross(t[1] - q, t[2] - q), normal) / area, 0.0, 1.0) : 0;
 }
 
-// Points of a new face: of a curved one by their weights. The surface over a part of it is within the hull of
-// corners and sides.
+// Points of a new face, of a curved one by their weights; and whether a part of it is within a distance of a
+// triangle. A part of a curved one lies within the hull of its Bézier points.
 using Corners = std::array<Vec3, 3>;
 struct CurvedFace {
     CurvedTriangle face;
     Vec3 operator()(const Vec3& weights) const { return face.at(weights); }
-    Vec3 side(const Vec3& a, const Vec3& b) const {
-        return (face.at(a) + face.at(b) - face.bend(a - b)) * 0.5;
-    }
-    double farthest(const Corners& part, const Bvh& bvh, std::int32_t other) const {
+    bool within(double distance, const Corners& part, const Bvh& bvh, std::int32_t other) const {
         const auto& [a, b, c] = part;
-        return std::max(bvh.farthest_corner({face.at(a), face.at(b), face.at(c)}, other),
-                        bvh.farthest_corner({side(a, b), side(b, c), side(c, a)}, other));
+        const Vec3 pa = face.at(a), pb = face.at(b), pc = face.at(c);
+        if (bvh.farthest_corner({pa, pb, pc}, other) > distance) return false;
+        const Corners sides{(pa + pb - face.bend(a - b)) * 0.5, (pb + pc - face.bend(b - c)) * 0.5,
+                            (pc + pa - face.bend(c - a)) * 0.5};
+        return bvh.farthest_corner(sides, other) <= distance;
     }
 };
 struct FlatFace {
     Vec3 operator()(const Vec3& p) const { return p; }
-    double farthest(const Corners& part, const Bvh& bvh, std::int32_t other) const {
-        return bvh.farthest_corner(part, other);
+    bool within(double distance, const Corners& part, const Bvh& bvh, std::int32_t other) const {
+        return bvh.farthest_corner(part, other) <= distance;
     }
 };
 
@@ -125,7 +125,7 @@ double CollapseError::farthest(const std::array<Vec3, 3>& corners, const Surface
         worst = std::max(worst, distance);
         const double most = std::max(worst, harmless);
         if (distance + rise <= most) continue;
-        if (surface.farthest({a, b, c}, bvh_, found.face) <= std::max(most, enough)) continue;
+        if (surface.within(std::max(most, enough), {a, b, c}, bvh_, found.face)) continue;
         const Vec3 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
         parts_left.insert(parts_left.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMendingRounds = 4;
-// With more vertices than this over the limit the grid is too coarse, and mending would only cost time.
+// With more vertices than this over the limit the grid is too coarse, and mending would only cost time (igea
+// at 1e-3: 4,986 bytes at 0.01, 4,778 at 0.02 and 0.05).
 constexpr double kHopeless = 0.05;
 constexpr std::size_t kMostTrials = 10;
 // Nor is there hope with more vertices than these open after a round (half a bracket at a quarter of its
@@ -202,8 +203,7 @@ class Snapper {
             const double worst = by_max ? std::max(forward, backward) : forward;
             if (backward < kInfinity && worst < best.cost) best = {worst, q};
         }
-        if (cost(v, best.q, limits_.forward, kInfinity) == kInfinity)
-            mesh_.patch_of_move(v, grid_.point(best.q), patch_);
+        cost(v, best.q, limits_.forward, kInfinity);
         take(v);
     }
 

@@ -42,12 +42,12 @@ std::vector<std::int32_t> faces_of(const std::vector<MissedPoint>& missed) {
     return faces;
 }
 
-// What is around them.
+// At the ends of the edges and the corners of the faces.
 std::vector<std::int32_t> vertices_of(const CollapseMesh& mesh, const std::vector<EdgeEnds>& edges,
-                                      const std::vector<MissedPoint>& missed) {
+                                      const std::vector<std::int32_t>& faces) {
     std::vector<std::int32_t> vertices;
     for (const EdgeEnds& ends : edges) vertices.insert(vertices.end(), ends.begin(), ends.end());
-    for (const std::int32_t f : faces_of(missed)) {
+    for (const std::int32_t f : faces) {
         const Triangle& t = mesh.face(f);
         vertices.insert(vertices.end(), t.begin(), t.end());
     }
@@ -121,7 +121,8 @@ MendedPart mended_part(const TriangleMesh& original, CollapseMesh& mesh, Collaps
         }
         if (!by_max) return {std::move(object), 0};
         const std::vector<MissedPoint> missed = missed_points(original, mesh, limits.forward, task);
-        std::vector<std::int32_t> vertices = vertices_of(mesh, edges, missed);
+        const std::vector<std::int32_t> faces = faces_of(missed);
+        std::vector<std::int32_t> vertices = vertices_of(mesh, edges, faces);
         const std::size_t wrong = vertices.size();
         const bool hopeless =
             wrong > kFew + mesh.face_count() / kFaces || (round > kPatience && wrong > best.wrong);
@@ -135,7 +136,7 @@ MendedPart mended_part(const TriangleMesh& original, CollapseMesh& mesh, Collaps
         }
         error.add(missed);
         if (round >= kPatience) {
-            for (const std::int32_t f : faces_of(missed)) edges.push_back(longest_edge(mesh, f));
+            for (const std::int32_t f : faces) edges.push_back(longest_edge(mesh, f));
             divide(mesh, error, edges);
         }
         open = mend_vertices(mesh, error, within, grid, std::move(vertices), task);

@@ -56,7 +56,7 @@ class Surface {
 
     // From each point of the part to that of the face whose weights are mixed alike from the corners' foot
     // points: a quadratic Bézier triangle of vectors, none of which is longer than the longest of its control
-    // points. The second differences of the face make its sides (CurvedTriangle::bend of a difference).
+    // points.
     bool within_limit_of(const CurvedTriangle& face, const Corners& part) const {
         const double most = limit_ * limit_;
         Corners off, weights;

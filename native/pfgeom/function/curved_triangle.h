@@ -16,7 +16,9 @@ struct CurvedTriangle {
     Vec3 at(const Vec3& w) const {
         return (corners[0] * w.x + corners[1] * w.y + corners[2] * w.z) + bend(w);
     }
-    /// Of that point: how far it is from the flat triangle's.
+    /// Of that point: how far it is from the flat triangle's. Of the difference of two points' weights: minus
+    /// the second difference, so that half way between them the surface is at
+    /// (at(a) + at(b)) / 2 - bend(a - b) / 4.
     Vec3 bend(const Vec3& w) const {
         return (bulges[0] * (w.x * w.y) + bulges[1] * (w.y * w.z) + bulges[2] * (w.z * w.x)) * 4.0;
     }

@@ -7,6 +7,7 @@
 // t lies between the distance of the face and that of its farthest corner.
 #include "pfgeom/report/ellipsoid_bound.h"
 
+#include "pfgeom/base/cholesky.h"
 #include "pfgeom/mesh/edges.h"
 
 #include <algorithm>
@@ -32,27 +33,22 @@ struct ToSphere {
     }
 };
 
-// Cholesky's decomposition of the squares and products, with the sign that makes them positive inside out.
+// Squares and products are factorised with the sign that makes them positive. The gradient vanishes at the
+// centre: twice their matrix times it is (G, H, I).
 std::optional<ToSphere> to_sphere(const Quadric& q) {
     const auto& c = q.c;
-    const double a = -c[0], b = -c[3] / 2, d = -c[4] / 2, e = -c[1], f = -c[5] / 2, g = -c[2];
-    if (!(a > 0)) return {};
-    const double l00 = std::sqrt(a), l10 = b / l00, l20 = d / l00, left = e - l10 * l10;
-    if (!(left > 0)) return {};
-    const double l11 = std::sqrt(left), l21 = (f - l20 * l10) / l11, last = g - l20 * l20 - l21 * l21;
-    if (!(last > 0)) return {};
-    const double l22 = std::sqrt(last);
-    // The gradient vanishes at the centre: twice the matrix times it is (G, H, I).
-    const double y0 = c[6] / 2 / l00, y1 = (c[7] / 2 - l10 * y0) / l11,
-                 y2 = (c[8] / 2 - l20 * y0 - l21 * y1) / l22;
-    ToSphere map;
-    map.centre.z = y2 / l22;
-    map.centre.y = (y1 - l21 * map.centre.z) / l11;
-    map.centre.x = (y0 - l10 * map.centre.y - l20 * map.centre.z) / l00;
+    Matrix10 squares{};
+    squares[0] = {-c[0]};
+    squares[1] = {-c[3] / 2, -c[1]};
+    squares[2] = {-c[4] / 2, -c[5] / 2, -c[2]};
+    const Matrix10 f = factorise(squares, 3);
+    if (!(f[0][0] > 0 && f[1][1] > 0 && f[2][2] > 0)) return {};
+    const Vector10 centre = solve_factorised(f, {c[6] / 2, c[7] / 2, c[8] / 2}, 3);
+    ToSphere map{{centre[0], centre[1], centre[2]}, {}};
     const double height = q.value(map.centre);
     if (!(height > 0)) return {};
-    const double scale = 1 / std::sqrt(height);
-    map.rows = {Vec3{l00, l10, l20} * scale, Vec3{0, l11, l21} * scale, Vec3{0, 0, l22} * scale};
+    const Vec3 sizes{std::sqrt(f[0][0] / height), std::sqrt(f[1][1] / height), std::sqrt(f[2][2] / height)};
+    map.rows = {Vec3{1, f[1][0], f[2][0]} * sizes.x, Vec3{0, 1, f[2][1]} * sizes.y, Vec3{0, 0, sizes.z}};
     return map;
 }
 
