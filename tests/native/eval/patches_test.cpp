@@ -40,6 +40,14 @@ Object sphere_part(int level) {
     return object;
 }
 
+// Of the vertices of one mesh from the other.
+double worst_distance(const TriangleMesh& from, const TriangleMesh& to) {
+    const Bvh bvh(to);
+    double worst = 0;
+    for (const Vec3& v : from.vertices) worst = std::max(worst, bvh.closest(v).squared_distance);
+    return std::sqrt(worst);
+}
+
 TEST(Patches, BulgedOctahedronIsNearlyASphere) {
     for (const Vec3& v : divide_patches(sphere_part(1), {.chord = 1e-3}).vertices)
         EXPECT_NEAR(norm(v), 1, 0.02);
@@ -69,10 +77,7 @@ TEST(Patches, ChordHoldsBesideStraightEdgesToo) {
     for (std::size_t i = 0; i < part.bulges.size(); i += 3) part.bulges[i] = {};
     for (const double chord : {4e-3, 1e-3}) {
         const TriangleMesh fine = divide_patches(object, {.chord = 1e-5});
-        const Bvh bvh(divide_patches(object, {.chord = chord}));
-        double worst = 0;
-        for (const Vec3& v : fine.vertices) worst = std::max(worst, bvh.closest(v).squared_distance);
-        EXPECT_LT(std::sqrt(worst), 2 * chord);
+        EXPECT_LT(worst_distance(fine, divide_patches(object, {.chord = chord})), 2 * chord);
     }
 }
 
@@ -81,11 +86,34 @@ TEST(Patches, ChordSaysHowFarEdgesAreFromTheirCurve) {
     const TriangleMesh fine = divide_patches(object, {.chord = 1e-6}),
                        coarse = divide_patches(object, {.chord = 1e-2});
     EXPECT_LT(coarse.faces.size() * 20, fine.faces.size());
-    const Bvh bvh(coarse);
-    double worst = 0;
-    for (const Vec3& v : fine.vertices) worst = std::max(worst, bvh.closest(v).squared_distance);
-    EXPECT_LT(std::sqrt(worst), 1.5e-2);
-    EXPECT_GT(std::sqrt(worst), 2e-3);
+    EXPECT_LT(worst_distance(fine, coarse), 1.5e-2);
+    EXPECT_GT(worst_distance(fine, coarse), 2e-3);
+}
+
+// A unit square bent about its y axis: rows of two triangles each, and not a lattice, between its straight
+// edges.
+TEST(Patches, NeedsHardlyAVertexWithinACylinder) {
+    MeshPart part;
+    part.step_code = part.bulge_code = -80;
+    part.positions = {{0, 0, 0}, {1024, 0, 0}, {1024, 1024, 0}, {0, 1024, 0}};
+    part.faces = {{0, 1, 2}, {0, 2, 3}};
+    for (const auto& [a, b] : EdgesOfFaces::of(part.faces).ends) {
+        const bool across =
+            part.positions[static_cast<std::size_t>(a)][0] != part.positions[static_cast<std::size_t>(b)][0];
+        part.bulges.push_back({across ? 256 : 0, 0});
+    }
+    Object object;
+    object.shape = part;
+    const double bulge = 256 * part.bulge_step();
+    for (const int parts : {2, 5, 8, 16}) {
+        const double chord = 1.001 * bulge / (parts * parts);
+        const TriangleMesh mesh = divide_patches(object, {.chord = chord});
+        const std::size_t rows = 2 * (2 * static_cast<std::size_t>(parts) - 1);
+        EXPECT_LE(mesh.faces.size(), rows + rows / 8) << parts;  // two lattices have parts² each
+        EXPECT_LT(worst_distance(divide_patches(object, {.chord = 1e-6}), mesh), chord);
+    }
+    const TriangleMesh even = divide_patches(object, {.chord = 1, .length = 0.1});
+    EXPECT_GT(even.faces.size(), 200U) << "lengths hold in both directions";
 }
 
 TEST(Patches, TangentTouchesTheSurface) {
