@@ -1,4 +1,5 @@
 #include "pfgeom/compress/candidate.h"
+#include "pfgeom/segment/exact_patches.h"
 
 #include <algorithm>
 #include <utility>
@@ -18,6 +19,11 @@ constexpr std::size_t kSure = 2;
 constexpr std::size_t kFewBytes = 120, kFewFaces = 400;
 // How much larger a tree may become when it is mended, before a mesh of as many bytes is looked for.
 constexpr double kGrowth = 1.25;
+// A tree is kept though a mesh would save up to so much: functions keep creases and can be rebuilt at any
+// resolution (milled pocket askew: 213 bytes, the mesh 204).
+constexpr double kWorthOfFunctions = 0.05;
+// Parts and unions of ellipsoids have 0.9 to 1 of their area in exact patches, scans less than 0.1.
+constexpr double kTessellated = 0.5;
 // Nor are fewer than this worth a sheet, which takes some 40 bytes.
 constexpr std::size_t kLeastFacesOfSheet = 16;
 
@@ -57,26 +63,50 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
     std::optional<Outcome> best = try_tree(goal, limit, task);
     if (best && surely_less(best->bytes) && !all) return best;
     if (!best && goal.mesh.faces.size() < kLeastFacesAlone) return {};
-    look_for_mesh(best ? best->bytes : kAnyBytes);
-    take_cheaper(std::move(plain), best);
+    std::size_t most = kAnyBytes;
+    if (best) most = static_cast<std::size_t>((1 - kWorthOfFunctions) * static_cast<double>(best->bytes));
+    look_for_mesh(most);
+    if (plain && plain->bytes <= most) best = std::move(plain);
     // By the maximum no hierarchy was the cheapest of the candidates at any of 50 points: 17 meshes at 1e-2,
     // 1e-3 and 2e-4.
     if (all || !best) take_cheaper(try_hierarchy(goal, best ? best->bytes : kAnyBytes, task), best);
     return best;
 }
 
+bool is_tessellated(const TriangleMesh& mesh, const Task& task) {
+    return exact_share(mesh, find_exact_patches(mesh, task)) >= kTessellated;
+}
+
+// Of the tree and the mesh the likely one comes first and limits the other.
 std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
-    const auto limit = [&](std::size_t) { return estimate.likely; };
-    std::optional<Outcome> best = try_tree(goal, limit, task);
-    const bool alone = goal.mesh.faces.size() >= kLeastFacesAlone;
-    if (!best && !alone) return {};
-    const bool far_below = best && best->bytes < estimate.least_mirrored() && goal.effort != Effort::best;
-    if (!far_below && goal.mesh.faces.size() <= kQuickMesh)
-        take_cheaper(try_mesh(goal, estimate, kAnyBytes, task), best);
+    const std::size_t faces = goal.mesh.faces.size();
+    const bool alone = faces >= kLeastFacesAlone;
+    std::optional<Outcome> best;
+    const auto look_for_tree = [&] {
+        const std::size_t most = best ? std::min(best->bytes, estimate.likely) : estimate.likely;
+        take_cheaper(try_tree(
+                         goal, [&](std::size_t) { return most; }, task),
+                     best);
+    };
+    const auto look_for_mesh = [&] {
+        const bool needless = best && best->bytes < estimate.least_mirrored() && goal.effort != Effort::best;
+        if (alone && faces <= kQuickMesh && !needless)
+            take_cheaper(try_mesh(goal, estimate, kAnyBytes, task), best);
+    };
+    if (is_tessellated(goal.mesh, task)) {
+        look_for_tree();
+        look_for_mesh();
+    } else {
+        look_for_mesh();
+        look_for_tree();
+    }
+    if (!alone) return best;
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
-    // search of that starts too fine.
-    if (alone) take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kAnyBytes, task), best);
+    // search of that starts too fine, and so does the one that a mesh limits.
+    std::size_t most = kAnyBytes;
+    if (best) most = best->candidate == "mesh" ? best->bytes + best->bytes / 4 : 2 * best->bytes;
+    take_cheaper(try_hierarchy(goal, most, task), best);
     return best;
 }
 

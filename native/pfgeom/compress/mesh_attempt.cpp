@@ -18,6 +18,8 @@ namespace {
 // than three quarters of the input's triangles, or three times as many, and what the fit leaves for it.
 constexpr double kChordShare = 0.08, kLongChordShare = 0.12, kMostChordShare = 0.5, kReserve = 0.05;
 constexpr std::size_t kMostTriangles = 3;
+// By the rms chords add little: half of the tolerance 2 % of the rms, 0.7 of it 5 % (cheburashka at 1e-4).
+constexpr double kChordOfRms = 0.5, kMostChordOfRms = 1;
 // It may have so many times as many where a finer one is tried (cheburashka and rocker-arm at 1e-3: 3.01).
 constexpr std::size_t kMostTrianglesFiner = 4;
 // Inside a patch chords are off by more than along its edges: where the proof misses the tolerance by less
@@ -30,7 +32,8 @@ constexpr double kLeastCurvedBytes = 2, kLeastFlatBytes = 0.9;
 // The finest default mesh that is not too large for the input.
 std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
     const auto code_for = [&](double share) { return mesh_code_for(goal, share * goal.tolerance); };
-    std::uint8_t code = code_for(kChordShare);
+    const bool by_max = goal.metric == Metric::max;
+    std::uint8_t code = code_for(by_max ? kChordShare : kChordOfRms);
     const auto triangles = [&] {
         try {
             return mesh_of(object, {.chord = goal.diagonal * exp2_eighths(-2 * int{code})}).faces.size();
@@ -44,8 +47,12 @@ std::uint8_t mesh_code_of(const Goal& goal, const Object& object) {
             --code;
     };
     const std::size_t input = goal.mesh.faces.size();
-    coarsen(kLongChordShare, input - input / 4);
-    coarsen(kMostChordShare, kMostTriangles * input);
+    if (by_max) {
+        coarsen(kLongChordShare, input - input / 4);
+        coarsen(kMostChordShare, kMostTriangles * input);
+    } else {
+        coarsen(kMostChordOfRms, kMostTrianglesFiner * input);
+    }
     return code;
 }
 

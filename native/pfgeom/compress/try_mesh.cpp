@@ -10,7 +10,7 @@ namespace pfgeom {
 namespace {
 
 // Larger meshes are not tried curved unless the effort is the best: igea (268,686 faces) takes 65 s flat and
-// curved on two cores. Nor is the rms, whose searches for a share take three times as long.
+// curved on two cores.
 constexpr std::size_t kMostCurved = 60'000;
 // Of the tolerance: how far a surface may be from its mirror image for a half of it to be tried. A blob with
 // one half swollen by 0, 0.3 and 0.5 of 5e-3 takes 15, 18 and 21 patches; at 0.8 mending them comes to no
@@ -21,9 +21,10 @@ constexpr double kMostAsymmetric = 0.6;
 // same factor at neighbouring shares: so it is corrected by what was measured.
 std::optional<Outcome> search_rms(const WantedMesh& wanted, bool curved, std::size_t most, const Task& task) {
     constexpr int kMostAttempts = 4;
-    constexpr double kAim = 0.98, kBand = 0.025;
+    constexpr double kAim = 0.99, kBand = 0.02;
+    constexpr double kFirstShare = 1.2;  // 1.07 to 1.27 were right
     std::optional<Outcome> best;
-    double share = 1;
+    double share = kFirstShare;
     for (int i = 0; i < kMostAttempts; ++i) {
         const Outcome outcome = attempt_mesh(wanted, share, curved, task);
         const double reached = outcome.deviation.rms() / wanted.goal.tolerance;
@@ -97,16 +98,24 @@ Outcome best_by_max(const WantedMesh& wanted, std::optional<MeshEstimate>& known
     return better ? std::move(curved) : std::move(flat);
 }
 
+Outcome best_by_rms(const WantedMesh& wanted, std::optional<MeshEstimate>& known, const Task& task) {
+    std::optional<Outcome> curved = search_rms(wanted, true, kAnyBytes, task);
+    if (curved) {
+        if (!known) known = estimate_mesh(wanted.goal, task);
+        if (curved->bytes < (wanted.mirror ? known->least_mirrored() : known->least))
+            return *std::move(curved);
+    }
+    Outcome flat = flat_by_rms(wanted, task);
+    return curved && (!flat.holds || curved->bytes < flat.bytes) ? *std::move(curved) : flat;
+}
+
 Outcome best_of(const WantedMesh& wanted, std::optional<MeshEstimate>& known, const Task& task) {
     const Goal& goal = wanted.goal;
     const bool by_max = goal.metric == Metric::max;
-    const bool quick = by_max && goal.mesh.faces.size() <= kMostCurved;
-    if (goal.effort == Effort::fast || (goal.effort == Effort::normal && !quick))
+    if (goal.effort == Effort::fast ||
+        (goal.effort == Effort::normal && goal.mesh.faces.size() > kMostCurved))
         return by_max ? flat_by_max(wanted, task) : flat_by_rms(wanted, task);
-    if (by_max) return best_by_max(wanted, known, task);
-    Outcome flat = flat_by_rms(wanted, task);
-    std::optional<Outcome> curved = search_rms(wanted, true, flat.holds ? flat.bytes : kAnyBytes, task);
-    return curved && (!flat.holds || curved->bytes < flat.bytes) ? *std::move(curved) : flat;
+    return by_max ? best_by_max(wanted, known, task) : best_by_rms(wanted, known, task);
 }
 
 std::optional<Mirror> mirror_of(const Goal& goal, const Task& task) {
