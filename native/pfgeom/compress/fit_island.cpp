@@ -22,8 +22,6 @@ constexpr double kGrowth = 1.25;
 // A tree is kept though a mesh would save up to so much: functions keep creases and can be rebuilt at any
 // resolution (milled pocket askew: 213 bytes, the mesh 204).
 constexpr double kWorthOfFunctions = 0.05;
-// Parts and unions of ellipsoids have 0.9 to 1 of their area in exact patches, scans less than 0.1.
-constexpr double kTessellated = 0.5;
 // Nor are fewer than this worth a sheet, which takes some 40 bytes.
 constexpr std::size_t kLeastFacesOfSheet = 16;
 
@@ -73,10 +71,6 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
     return best;
 }
 
-bool is_tessellated(const TriangleMesh& mesh, const Task& task) {
-    return exact_share(mesh, find_exact_patches(mesh, task)) >= kTessellated;
-}
-
 // Of the tree and the mesh the likely one comes first and limits the other.
 std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
@@ -94,7 +88,7 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
         if (alone && faces <= kQuickMesh && !needless)
             take_cheaper(try_mesh(goal, estimate, kAnyBytes, task), best);
     };
-    if (is_tessellated(goal.mesh, task)) {
+    if (is_tessellation(goal.mesh, find_exact_patches(goal.mesh, task))) {
         look_for_tree();
         look_for_mesh();
     } else {
@@ -103,10 +97,8 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     }
     if (!alone) return best;
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
-    // search of that starts too fine, and so does the one that a mesh limits.
-    std::size_t most = kAnyBytes;
-    if (best) most = best->candidate == "mesh" ? best->bytes + best->bytes / 4 : 2 * best->bytes;
-    take_cheaper(try_hierarchy(goal, most, task), best);
+    // search of that starts too fine.
+    take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kAnyBytes, task), best);
     return best;
 }
 

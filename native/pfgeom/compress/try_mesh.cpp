@@ -19,9 +19,9 @@ constexpr double kMostAsymmetric = 0.6;
 
 // The simplifier's own measure of the rms is off by up to a fifth either way (rocker-arm at 5e-4), but by the
 // same factor at neighbouring shares: so it is corrected by what was measured.
-std::optional<Outcome> search_rms(const WantedMesh& wanted, bool curved, std::size_t most, const Task& task) {
+std::optional<Outcome> search_rms(const WantedMesh& wanted, bool curved, const Task& task) {
     constexpr int kMostAttempts = 4;
-    constexpr double kAim = 0.99, kBand = 0.02;
+    constexpr double kAim = 0.985, kBand = 0.035;
     constexpr double kFirstShare = 1.2;  // 1.07 to 1.27 were right
     std::optional<Outcome> best;
     double share = kFirstShare;
@@ -29,7 +29,6 @@ std::optional<Outcome> search_rms(const WantedMesh& wanted, bool curved, std::si
         const Outcome outcome = attempt_mesh(wanted, share, curved, task);
         const double reached = outcome.deviation.rms() / wanted.goal.tolerance;
         if (outcome.holds && (!best || outcome.bytes < best->bytes)) best = outcome;
-        if (outcome.bytes >= most && reached >= kAim - kBand) break;
         if (!(reached > 0) || (outcome.holds && reached > kAim - kBand)) break;
         share *= std::clamp(kAim / reached, 0.5, 1.5);
     }
@@ -72,7 +71,7 @@ Outcome flat_by_max(const WantedMesh& wanted, const Task& task) {
 }
 
 Outcome flat_by_rms(const WantedMesh& wanted, const Task& task) {
-    std::optional<Outcome> found = search_rms(wanted, false, kAnyBytes, task);
+    std::optional<Outcome> found = search_rms(wanted, false, task);
     if (!found && !wanted.mirror) found = attempt_mesh(wanted, 0, false, task);
     return found ? *std::move(found) : Outcome{};
 }
@@ -99,7 +98,7 @@ Outcome best_by_max(const WantedMesh& wanted, std::optional<MeshEstimate>& known
 }
 
 Outcome best_by_rms(const WantedMesh& wanted, std::optional<MeshEstimate>& known, const Task& task) {
-    std::optional<Outcome> curved = search_rms(wanted, true, kAnyBytes, task);
+    std::optional<Outcome> curved = search_rms(wanted, true, task);
     if (curved) {
         if (!known) known = estimate_mesh(wanted.goal, task);
         if (curved->bytes < (wanted.mirror ? known->least_mirrored() : known->least))

@@ -17,10 +17,8 @@
 namespace pfgeom {
 namespace {
 
-// A large island is tried if so much of its area is an exact tessellation: parts and unions of ellipsoids
-// have 0.9 to 1, scans less than 0.1.
+// Larger islands are tried if they are tessellations.
 constexpr std::size_t kLarge = 40'000;  // faces
-constexpr double kTessellated = 0.5;
 // Of the tolerance, what the tree is certified to. The chords of the default mesh may take more than the
 // rest: they are longest where the quadrics are not at their worst, and the mesh is measured. Shorter ones
 // come next.
@@ -76,8 +74,7 @@ class TreeSearch {
           target_(outwards_in_cube(goal, frame_), task) {}
 
     std::optional<Outcome> run() const {
-        if (target_.mesh.faces.size() > kLarge && exact_share(target_.mesh, target_.exact) < kTessellated)
-            return {};
+        if (target_.mesh.faces.size() > kLarge && !is_tessellation(target_.mesh, target_.exact)) return {};
         return goal_.metric == Metric::max ? by_max() : by_rms();
     }
 

@@ -25,5 +25,9 @@ std::vector<ExactPatch> find_exact_patches(const TriangleMesh& mesh, const Task&
 /// neighbour in their plane, as in flat sides and in strips along cylinders and cones. Costs a look at every
 /// edge: to be asked before anything dear is tried on a large mesh.
 double exact_share(const TriangleMesh& mesh, std::span<const ExactPatch> patches);
+/// Half of it: parts and unions of ellipsoids have 0.9 to 1, scans less than 0.1.
+inline bool is_tessellation(const TriangleMesh& mesh, std::span<const ExactPatch> patches) {
+    return exact_share(mesh, patches) >= 0.5;
+}
 
 }  // namespace pfgeom
