@@ -85,10 +85,11 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     };
     const auto look_for_mesh = [&] {
         const bool needless = best && best->bytes < estimate.least_mirrored() && goal.effort != Effort::best;
-        if (alone && faces <= kQuickMesh && !needless)
+        if ((alone || best) && faces <= kQuickMesh && !needless)
             take_cheaper(try_mesh(goal, estimate, kAnyBytes, task), best);
     };
-    if (is_tessellation(goal.mesh, find_exact_patches(goal.mesh, task))) {
+    // What is not alone is a tree or nothing.
+    if (!alone || is_tessellation(goal.mesh, find_exact_patches(goal.mesh, task))) {
         look_for_tree();
         look_for_mesh();
     } else {

@@ -78,14 +78,18 @@ Outcome flat_by_rms(const WantedMesh& wanted, const Task& task) {
     return found ? *std::move(found) : Outcome{};
 }
 
-// Flat faces are not made where curved ones take fewer bytes than flat ones hardly ever do. With less of the
-// tolerance either only becomes more, so that is not tried where the other does no worse with all of it.
+// Flat faces are not made where curved ones take fewer bytes than flat ones hardly ever do.
+bool below_flat(const WantedMesh& wanted, const Outcome& curved, std::optional<MeshEstimate>& known,
+                const Task& task) {
+    if (!known) known = estimate_mesh(wanted.goal, task);
+    return curved.bytes < (wanted.mirror ? known->least_mirrored() : known->least);
+}
+
+// With less of the tolerance either only becomes more, so that is not tried where the other does no worse
+// with all of it.
 Outcome best_by_max(const WantedMesh& wanted, std::optional<MeshEstimate>& known, const Task& task) {
     Outcome curved = attempt_mesh(wanted, 1, true, task);
-    if (curved.holds) {
-        if (!known) known = estimate_mesh(wanted.goal, task);
-        if (curved.bytes < (wanted.mirror ? known->least_mirrored() : known->least)) return curved;
-    }
+    if (curved.holds && below_flat(wanted, curved, known, task)) return curved;
     Outcome flat = attempt_mesh(wanted, kFlatShare, false, task);
     double share = 1;
     for (int i = 0; i < kCurvedAgain; ++i) {
@@ -101,11 +105,7 @@ Outcome best_by_max(const WantedMesh& wanted, std::optional<MeshEstimate>& known
 
 Outcome best_by_rms(const WantedMesh& wanted, std::optional<MeshEstimate>& known, const Task& task) {
     std::optional<Outcome> curved = search_rms(wanted, true, task);
-    if (curved) {
-        if (!known) known = estimate_mesh(wanted.goal, task);
-        if (curved->bytes < (wanted.mirror ? known->least_mirrored() : known->least))
-            return *std::move(curved);
-    }
+    if (curved && below_flat(wanted, *curved, known, task)) return *std::move(curved);
     Outcome flat = flat_by_rms(wanted, task);
     return curved && (!flat.holds || curved->bytes < flat.bytes) ? *std::move(curved) : flat;
 }

@@ -51,6 +51,7 @@ class Thinner {
     void turn_edges();
     bool drop(std::int32_t v);
     double highest_edge(const std::vector<Triangle>& fan, std::int32_t apex) const;
+    void remove(std::int32_t f);
     void replace(std::int32_t f, const Triangle& by);
 
     const CurvedTriangle& patch_;
@@ -69,8 +70,13 @@ bool Thinner::may_be(const Triangle& t) const {
     return area > kThinnest * side && dot(n, normal(middle)) > kFacing * area;
 }
 
-void Thinner::replace(std::int32_t f, const Triangle& by) {
+void Thinner::remove(std::int32_t f) {
     for (const std::int32_t v : face(f)) std::erase(around(v), f);
+    face(f) = {-1, -1, -1};
+}
+
+void Thinner::replace(std::int32_t f, const Triangle& by) {
+    remove(f);
     face(f) = by;
     for (const std::int32_t v : by) around(v).push_back(f);
 }
@@ -131,12 +137,10 @@ bool Thinner::drop(std::int32_t v) {
     const std::vector<std::int32_t> faces = around(v);
     for (std::size_t i = 0; i < fan.size(); ++i) {
         const auto& [old, r, s] = fan[i];
-        if (r != to && s != to) {
+        if (r == to || s == to)
+            remove(faces[i]);
+        else
             replace(faces[i], {to, r, s});
-        } else {
-            for (const std::int32_t corner : face(faces[i])) std::erase(around(corner), faces[i]);
-            face(faces[i]) = {-1, -1, -1};
-        }
     }
     return true;
 }
