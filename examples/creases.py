@@ -5,9 +5,11 @@
 
 A crease is an edge whose faces turn by more than 30 degrees, as in `Model.corner_normals`. "there": of the input's
 creases, how far points on them are from those of the default mesh; "back": the other way round; the share within the
-tolerance, and the largest over the tolerance. "angle": the difference between the dihedral angles at a point of a
-crease and at the nearest of the other's within the tolerance, in degrees. On the way back edges of triangles that are
-not as high over them as --narrowest tolerances are left out: no distance tells which way those face.
+tolerance, and the largest over the tolerance. On the way back the input's borders (cracks) and edges that turn by more
+than --blunt degrees count as well: a fillet of few steps may have fewer, steeper ones in the mesh. "angle": the
+difference between the dihedral angles at a point of a crease and at the nearest of the other's within the tolerance,
+in degrees. On the way back edges of triangles that are not as high over them as --narrowest tolerances are left out:
+no distance tells which way those face.
 """
 
 import argparse
@@ -31,7 +33,7 @@ class Creases:
     turns: Floats  # (n,) degrees
 
 
-def creases_of(mesh: pfgeom.Mesh, narrowest: float) -> Creases:
+def creases_of(mesh: pfgeom.Mesh, narrowest: float = 0, sharp: float = SHARP, borders: bool = False) -> Creases:
     vertices, faces = welded(mesh)
     n = normals(vertices, faces.astype(np.int64))
     edges = np.concatenate([faces, np.roll(faces, -1, axis=1)]).reshape(2, -1).T
@@ -39,14 +41,19 @@ def creases_of(mesh: pfgeom.Mesh, narrowest: float) -> Creases:
     low, high = edges.min(axis=1).astype(np.int64), edges.max(axis=1).astype(np.int64)
     order = np.argsort(low * len(vertices) + high, kind="stable")
     key = (low * len(vertices) + high)[order]
-    pair = np.flatnonzero(key[1:] == key[:-1])
+    same = key[1:] == key[:-1]
+    pair = np.flatnonzero(same)
     one, other = owner[order[pair]], owner[order[pair + 1]]
     turns = np.degrees(np.arccos(np.clip((n[one] * n[other]).sum(axis=1), -1, 1)))
     rows = edges[order[pair]]
     lengths = np.linalg.norm(vertices[rows[:, 0]] - vertices[rows[:, 1]], axis=1)
     area = areas(vertices, faces.astype(np.int64))
-    kept = (turns > SHARP) & (2 * np.minimum(area[one], area[other]) > narrowest * lengths)
-    return Creases(vertices[rows[kept]], turns[kept])
+    kept = (turns > sharp) & (2 * np.minimum(area[one], area[other]) > narrowest * lengths)
+    rows, turns = rows[kept], turns[kept]
+    if borders:
+        alone = edges[order[~(np.append(same, False) | np.insert(same, 0, False))]]
+        rows, turns = np.concatenate([rows, alone]), np.concatenate([turns, np.full(len(alone), np.nan)])
+    return Creases(vertices[rows], turns)
 
 
 def points_of(creases: Creases) -> tuple[Floats, Floats]:
@@ -69,14 +76,16 @@ def one_way(a: Creases, b: Creases, tolerance: float) -> tuple[float, float, Flo
     nearest = pfgeom.closest_points(points, corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
     near = nearest.distances <= tolerance
     difference = np.abs(turns - b.turns[nearest.faces])[near]
-    return float(near.mean()), float(nearest.distances.max() / tolerance), difference
+    return float(near.mean()), float(nearest.distances.max() / tolerance), difference[np.isfinite(difference)]
 
 
-def row(name: str, mesh: pfgeom.Mesh, model: pfgeom.Model, narrowest: float) -> str:
+def row(name: str, mesh: pfgeom.Mesh, model: pfgeom.Model, narrowest: float, blunt: float) -> str:
     tolerance = model.tolerance
-    source, rebuilt = creases_of(mesh, 0), model.to_mesh()
-    there, far, angles = one_way(source, creases_of(rebuilt, 0), tolerance)
-    and_back, far_back, angles_back = one_way(creases_of(rebuilt, narrowest * tolerance), source, tolerance)
+    source, rebuilt = creases_of(mesh), model.to_mesh()
+    there, far, angles = one_way(source, creases_of(rebuilt), tolerance)
+    high_enough = creases_of(rebuilt, narrowest * tolerance)
+    and_back, far_back, _ = one_way(high_enough, creases_of(mesh, sharp=blunt, borders=True), tolerance)
+    angles_back = one_way(high_enough, source, tolerance)[2]
     both = np.concatenate([angles, angles_back])
     return (
         f"{name:<22}{100 * there:>10.2f}{far:>8.2f}{100 * and_back:>10.2f}{far_back:>8.2f}"
@@ -89,13 +98,14 @@ def main() -> None:
     parser.add_argument("meshes", nargs="+", metavar="MESH[=MODEL.pfg]")
     parser.add_argument("--tolerance", type=float, default=1e-3)
     parser.add_argument("--narrowest", type=float, default=1.0)
+    parser.add_argument("--blunt", type=float, default=SHARP, help="degrees (default 30)")
     args = parser.parse_args()
     print(f"{'mesh':<22}{'there %':>10}{'largest':>8}{'back %':>10}{'largest':>8}{'angle mean':>12}{'p99':>8}")
     for name in args.meshes:
         path, _, file = name.partition("=")
         mesh = pfgeom.read_mesh(path)
         model = pfgeom.load(file) if file else pfgeom.compress(*mesh, tolerance=args.tolerance)
-        print(row(Path(path).stem, mesh, model, args.narrowest), flush=True)
+        print(row(Path(path).stem, mesh, model, args.narrowest, args.blunt), flush=True)
 
 
 if __name__ == "__main__":

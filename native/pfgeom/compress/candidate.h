@@ -35,7 +35,7 @@ struct Goal {
 
 /// A representation that was written, read back, polygonized and measured.
 struct Outcome {
-    std::string candidate;            ///< "quadric", "sheet", "tree", "hierarchy" or "mesh"
+    std::string candidate;            ///< "quadric", "sheet", "tree", "hierarchy", "cut hierarchy" or "mesh"
     std::vector<Function> functions;  ///< of the one object; its nodes count from 0
     Object object;
     std::size_t bytes = 0;  ///< as a file of its own
@@ -57,7 +57,10 @@ std::optional<Outcome> try_tree(const Goal& goal, const TreeLimit& most_bytes, c
 /// Base quadric + hierarchy of perturbations, for a closed island. Gives up when it needs more than
 /// `most_bytes`.
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
-/// The same for an island with borders: they are closed, and the function's surface is cut along them.
+/// The same where quadrics cut it: faces between creases that lie on one become operands of an intersection,
+/// and the hierarchy is fitted to the rest. Nothing if there are no such faces.
+std::optional<Outcome> try_cut_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
+/// A hierarchy for an island with borders: they are closed, and the function's surface is cut along them.
 std::optional<Outcome> try_open_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task);
 /// What the simplified and coded mesh would take with flat faces, at a small part of the work.
 struct MeshEstimate {

@@ -28,7 +28,8 @@ struct CompressOptions {
 /// What became of one island.
 struct IslandReport {
     std::int64_t faces = 0;
-    std::string candidate;    ///< "quadric", "sheet", "tree", "hierarchy", "mesh" or "patches"
+    /// "quadric", "sheet", "tree", "hierarchy", "cut hierarchy", "mesh" or "patches".
+    std::string candidate;
     std::int64_t copies = 1;  ///< so many islands, this one included, are one object
     double bytes = 0;         ///< estimated: objects share one stream, copies one pattern
 };

@@ -22,6 +22,8 @@ constexpr double kGrowth = 1.25;
 // A tree is kept though a mesh would save up to so much: functions keep creases and can be rebuilt at any
 // resolution (milled pocket askew: 213 bytes, the mesh 204).
 constexpr double kWorthOfFunctions = 0.05;
+// A cut hierarchy that uses so much of the tolerance is smaller than one that is not cut.
+constexpr double kWellUsed = 0.9;
 // Nor are fewer than this worth a sheet, which takes some 40 bytes.
 constexpr std::size_t kLeastFacesOfSheet = 16;
 
@@ -99,7 +101,11 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     if (!alone) return best;
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
     // search of that starts too fine.
-    take_cheaper(try_hierarchy(goal, best ? 2 * best->bytes : kAnyBytes, task), best);
+    const std::size_t most = best ? 2 * best->bytes : kAnyBytes;
+    std::optional<Outcome> cut = try_cut_hierarchy(goal, most, task);
+    const bool found = cut && cut->deviation.rms() > kWellUsed * goal.tolerance;
+    if (!found || goal.effort == Effort::best) take_cheaper(try_hierarchy(goal, most, task), best);
+    take_cheaper(std::move(cut), best);
     return best;
 }
 

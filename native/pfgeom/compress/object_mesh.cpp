@@ -168,7 +168,7 @@ TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const O
         complement = !solid->nodes.empty() && solid->nodes.back().kind == SetNode::Kind::complement;
         Solid shape = *solid;
         if (complement) shape.nodes.pop_back();
-        mesh = polygonize(SolidField(model, shape), how, task);
+        mesh = polygonize(model, shape, how, task);
     } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
         complement = tree->complement;
         mesh = polygonize(*tree, how, task);

@@ -13,6 +13,8 @@ namespace pfgeom {
 namespace {
 
 constexpr int kMostFits = 8, kMostProofs = 4, kMostFitsOfMax = 4;
+// From this fit on what is below the aim will do: the error can jump across it (a casting: 0.93 to 1.01).
+constexpr int kLateFit = 4;
 constexpr double kChordOfMax = 0.12;  // of the tolerance
 
 // Fine levels have more centres, and with too few samples they are fitted to the samples instead of the
@@ -47,13 +49,12 @@ class Secant {
 
 class Search {
   public:
-    /// `closed`: the goal's mesh, or what closes it.
-    Search(const Goal& goal, const TriangleMesh& closed, const Finish& finish, std::size_t most_bytes,
+    Search(const Goal& goal, const ClosedIsland& closed, const Finish& finish, std::size_t most_bytes,
            const Task& task)
         : goal_(goal),
           finish_(finish),
           task_(task),
-          target_(closed, sample_count(goal), goal.mesh.faces.size()),
+          target_(closed.mesh, sample_count(goal), closed.own_faces, closed.fit_closing),
           tolerance_(goal.tolerance / target_.frame.half()) {
         options_.most_bits = 8.0 * static_cast<double>(most_bytes);
         options_.last_thin = kLastThinLevel;
@@ -63,7 +64,7 @@ class Search {
     }
 
     std::optional<Outcome> run() {
-        if (finish_ && target_.inside_out) return {};  // a sheet's faces cannot be turned
+        if (finish_ && target_.inside_out) return {};  // sheets and cuts are not turned
         return goal_.metric == Metric::rms ? search_rms() : search_max();
     }
 
@@ -90,7 +91,8 @@ class Search {
             const HierarchyFit fit = fit_hierarchy(target_, options_, task_);
             if (fit.function.levels.empty()) break;
             const double expected = fit.rms * bias / tolerance_;
-            if (std::abs(expected - aim) <= kBand || fits + 1 == kMostFits) {
+            const bool late = fits + 1 == kMostFits || (fits >= kLateFit && expected < aim);
+            if (std::abs(expected - aim) <= kBand || late) {
                 const Outcome outcome = prove_fit(fit, 0.5 * goal_.tolerance);
                 ++proofs;
                 if (outcome.mesh.faces.empty()) break;
@@ -156,13 +158,13 @@ class Search {
 
 }  // namespace
 
-std::optional<Outcome> search_hierarchy(const Goal& goal, const TriangleMesh& closed, const Finish& finish,
+std::optional<Outcome> search_hierarchy(const Goal& goal, const ClosedIsland& closed, const Finish& finish,
                                         std::size_t most_bytes, const Task& task) {
     return Search(goal, closed, finish, most_bytes, task).run();
 }
 
 std::optional<Outcome> try_hierarchy(const Goal& goal, std::size_t most_bytes, const Task& task) {
-    return search_hierarchy(goal, goal.mesh, {}, most_bytes, task);
+    return search_hierarchy(goal, {goal.mesh, goal.mesh.faces.size(), true}, {}, most_bytes, task);
 }
 
 }  // namespace pfgeom

@@ -74,7 +74,7 @@ std::optional<Outcome> try_open_hierarchy(const Goal& goal, std::size_t most_byt
     const ClosedIsland closed = close_holes(goal.mesh);
     const double own = surface_area(goal.mesh), missing = surface_area(closed.mesh) - own;
     if (missing > kMostMissing * own) return {};
-    return search_hierarchy(goal, closed.mesh, Opener(goal, closed, task), most_bytes, task);
+    return search_hierarchy(goal, closed, Opener(goal, closed, task), most_bytes, task);
 }
 
 }  // namespace pfgeom

@@ -24,8 +24,10 @@ struct FitTarget {
     std::vector<Vec3> points;   ///< #S stratified samples, in Morton order
     std::vector<Vec3> normals;  ///< #S, interpolated from the vertices, unit, outwards
 
-    /// `island`: closed, in the world; the faces behind the first `own` only close it, and get few samples.
-    FitTarget(const TriangleMesh& island, std::size_t samples, std::size_t own = SIZE_MAX);
+    /// `island`: closed, in the world; the faces behind the first `own` only close it, and get a sixteenth of
+    /// the samples or, without `with_closing`, none: what is cut away again need not be exact.
+    FitTarget(const TriangleMesh& island, std::size_t samples, std::size_t own = SIZE_MAX,
+              bool with_closing = true);
 
     /// Vertices as further samples: where the maximum counts, since that is where the mesh reaches furthest.
     void add_vertices(const TriangleMesh& island);

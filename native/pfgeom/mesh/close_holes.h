@@ -12,6 +12,7 @@ namespace pfgeom {
 struct ClosedIsland {
     TriangleMesh mesh;
     std::size_t own_faces = 0;
+    bool fit_closing = true;  ///< is a function to follow, roughly, what closes it?
 };
 ClosedIsland close_holes(const TriangleMesh& island);
 

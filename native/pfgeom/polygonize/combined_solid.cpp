@@ -4,6 +4,7 @@
 #include "pfgeom/eval/distance_field.h"
 #include "pfgeom/eval/function_field.h"
 #include "pfgeom/eval/mesh_part.h"
+#include "pfgeom/eval/solid_field.h"
 #include "pfgeom/polygonize/placed_field.h"
 #include "pfgeom/polygonize/polygonize.h"
 
@@ -26,21 +27,28 @@ constexpr double kLargestCell = 1.0 / 16;
 
 class Builder {
   public:
-    Builder(const Model& model, const Frame& frame, const Task& task)
+    Builder(const Model& model, const Affine& world, const Task& task)
         : model_(model),
           task_(task),
           tree_(combination_tree(model)),
-          world_(affine_of(frame)),
+          world_(world),
           functions_(model.functions.size()),
           meshes_(model.objects.size()) {}
 
-    CutSolid run() {
+    CutSolid whole() {
         add(static_cast<std::int32_t>(tree_.size()) - 1);
-        out_.finish();
-        return std::move(out_);
+        return finished();
+    }
+    CutSolid of(const Solid& solid) {
+        add_solid(solid, {}, 0);
+        return finished();
     }
 
   private:
+    CutSolid finished() {
+        out_.finish();
+        return std::move(out_);
+    }
     std::size_t push(const SolidNode& node) {
         if (nodes().size() >= kMostNodes)
             throw LimitExceeded("polygonize: the combination has more than " + std::to_string(kMostNodes) +
@@ -230,7 +238,17 @@ void Builder::add_mesh(std::int32_t object, double diagonal, const Affine& back)
 }  // namespace
 
 CutSolid combined_solid(const Model& model, const Frame& frame, const Task& task) {
-    return Builder(model, frame, task).run();
+    return Builder(model, affine_of(frame), task).whole();
+}
+
+CutSolid combined_solid(const Model& model, const Solid& solid, const Task& task) {
+    return Builder(model, {}, task).of(solid);
+}
+
+TriangleMesh polygonize(const Model& model, const Solid& solid, const PolygonizeOptions& options,
+                        const Task& task) {
+    if (solid.nodes.size() == 1) return polygonize(SolidField(model, solid), options, task);
+    return polygonize(combined_solid(model, solid, task), options, task);
 }
 
 TriangleMesh polygonize_combination(const Model& model, const Frame& frame, const PolygonizeOptions& options,

@@ -11,5 +11,7 @@ namespace pfgeom {
 /// parts become fields. Throws InvalidInput if an object is a sheet, and LimitExceeded where copies and
 /// shared parts of expressions add up to too much.
 CutSolid combined_solid(const Model& model, const Frame& frame, const Task& task = {});
+/// A solid of the model in its own cube.
+CutSolid combined_solid(const Model& model, const Solid& solid, const Task& task = {});
 
 }  // namespace pfgeom

@@ -41,6 +41,11 @@ TriangleMesh polygonize(const SetTree& tree, const PolygonizeOptions& options, c
 /// Any solid made for cutting (polygonize/cut_solid.h), likewise.
 TriangleMesh polygonize(const CutSolid& solid, const PolygonizeOptions& options, const Task& task = {});
 
+/// The surface of a solid of the model, in its cube: of one function its zero set, of more with the creases
+/// in which they meet; those of functions with perturbations are met to within the tolerance only.
+TriangleMesh polygonize(const Model& model, const Solid& solid, const PolygonizeOptions& options,
+                        const Task& task = {});
+
 /// The surface of a model's combination within the frame's cube, in the cube's coordinates: as of trees, with
 /// creases where the operands' surfaces cross. Creases of a smooth operand, of which mesh parts are, are met
 /// to within the tolerance only. Throws InvalidInput if an object is a sheet.
