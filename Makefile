@@ -77,7 +77,7 @@ native-tests: $(stamp)/installed $(stamp)/apt-test
 test: native-tests $(stamp)/venv-test $(stamp)/blender
 	.ci/blender start
 	.ci/step 'native tests' ctest --test-dir $(release) --parallel $(jobs) --output-on-failure
-	.ci/step 'Python and style tests' $(venv)/python -m pytest -q
+	.ci/step 'Python and style tests' $(venv)/python -m pytest -q -n $(jobs)
 	.ci/step 'getting Blender' .ci/blender wait
 	.ci/step 'Blender tests' $(venv)/python -m pytest -q tests/blender
 
