@@ -134,9 +134,8 @@ void ObjectCoder::code_node(SetNode& node, std::int32_t index) {
         stream_.mixer.code_uint(stream_.coder, static_cast<std::uint32_t>(node.kind), kNodeKind);
     if (kind > static_cast<std::uint32_t>(Kind::outside)) return stream_.fail(FormatStatus::bad_value);
     node.kind = static_cast<Kind>(kind);
-    const bool two = node.kind == Kind::unite || node.kind == Kind::intersect || node.kind == Kind::decide;
-    if (two || node.kind == Kind::complement) code_child(node.a, index);
-    if (two) code_child(node.b, index);
+    if (node.operands() > 0) code_child(node.a, index);
+    if (node.operands() > 1) code_child(node.b, index);
     if (node.kind == Kind::function) code_function_index(node.a);
     if (node.kind == Kind::decide) code_function_index(node.f);
 }

@@ -80,10 +80,25 @@ Flaw flaw_of(const SetNode& node, std::size_t index, std::size_t functions) {
     return "a node's kind does not exist";
 }
 
+// Whoever follows it is as deep in calls, and as long busy at every point.
 Flaw flaw_of(const Solid& solid, const Model& model) {
     if (solid.nodes.empty()) return "its set expression is empty";
+    struct Extent {
+        std::int32_t depth = 1, length = 1;
+    };
+    std::vector<Extent> extents(solid.nodes.size());
     for (std::size_t i = 0; i < solid.nodes.size(); ++i) {
-        if (Flaw flaw = flaw_of(solid.nodes[i], i, model.functions.size()); !flaw.empty()) return flaw;
+        const SetNode& node = solid.nodes[i];
+        if (Flaw flaw = flaw_of(node, i, model.functions.size()); !flaw.empty()) return flaw;
+        const auto add = [&](std::int32_t child) {
+            const Extent& operand = extents[static_cast<std::size_t>(child)];
+            extents[i].depth = std::max(extents[i].depth, operand.depth + 1);
+            extents[i].length += operand.length;
+        };
+        if (node.operands() > 0) add(node.a);
+        if (node.operands() > 1) add(node.b);
+        if (extents[i].depth > Solid::kMostDepth) return "its set expression is more than 512 deep";
+        if (extents[i].length > Solid::kMostLength) return "its set expression is longer than 65536";
     }
     return {};
 }

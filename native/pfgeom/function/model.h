@@ -89,11 +89,19 @@ struct SetNode {
     Kind kind = Kind::outside;
     std::int32_t a = -1, b = -1, f = -1;
 
+    /// How many of a, b are nodes.
+    int operands() const {
+        const bool two = kind == Kind::unite || kind == Kind::intersect || kind == Kind::decide;
+        return two ? 2 : kind == Kind::complement ? 1 : 0;
+    }
+
     friend bool operator==(const SetNode&, const SetNode&) = default;
 };
 
 /// A closed region of space.
 struct Solid {
+    /// So deep it may be, and so long where what is named more than once counts each time.
+    static constexpr std::int32_t kMostDepth = 512, kMostLength = 1 << 16;
     std::vector<SetNode> nodes;
 
     friend bool operator==(const Solid&, const Solid&) = default;

@@ -88,6 +88,26 @@ TEST(Check, IndicesMustExist) {
     EXPECT_NE(flaw_after([&](Model& m) { m.objects[0].shape = too_large; }), "");
 }
 
+// A chain of 60,000 overflowed the stack of whoever followed it, 30 squares of one another took forever.
+TEST(Check, SetExpressionsAreNeitherDeepNorLong) {
+    using Kind = SetNode::Kind;
+    const auto with_nodes = [](int count, Kind kind, bool squared) {
+        return flaw_after([=](Model& m) {
+            std::vector<SetNode>& nodes = std::get<Solid>(m.objects[0].shape).nodes;
+            for (int i = 0; i < count; ++i) {
+                const auto last = static_cast<std::int32_t>(nodes.size()) - 1;
+                nodes.push_back({kind, last, squared ? last : 0, 0});
+            }
+        });
+    };
+    EXPECT_EQ(with_nodes(511, Kind::intersect, false), "");
+    EXPECT_NE(with_nodes(512, Kind::intersect, false), "");
+    EXPECT_NE(with_nodes(512, Kind::complement, false), "");
+    EXPECT_EQ(with_nodes(15, Kind::unite, true), "");
+    EXPECT_NE(with_nodes(30, Kind::unite, true), "");
+    EXPECT_NE(with_nodes(30, Kind::decide, true), "");
+}
+
 TEST(Check, HalvesOfMirroredPartsMeetOnThePlane) {
     MeshPart half{0, {{0, 0, 0}, {9, 0, 0}, {0, 9, 1}}, {{0, 1, 2}}, 0, {{1, 0}, {0, 1}, {0, 2}}};
     const auto flaw_of = [](const MeshPart& part) {
