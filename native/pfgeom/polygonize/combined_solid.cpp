@@ -30,12 +30,12 @@ class Builder {
     Builder(const Model& model, const Affine& world, const Task& task)
         : model_(model),
           task_(task),
-          tree_(combination_tree(model)),
           world_(world),
           functions_(model.functions.size()),
           meshes_(model.objects.size()) {}
 
     CutSolid whole() {
+        tree_ = combination_tree(model_);
         add(static_cast<std::int32_t>(tree_.size()) - 1);
         return finished();
     }
@@ -76,8 +76,8 @@ class Builder {
 
     const Model& model_;
     const Task& task_;
-    std::vector<CombinationNode> tree_;
-    Affine world_;  // from the common cube
+    std::vector<CombinationNode> tree_;  // of the whole model
+    Affine world_;                       // from the common cube
     std::vector<std::shared_ptr<const FunctionField>> functions_;
     std::vector<std::shared_ptr<const DistanceField>> meshes_;
     std::map<std::int32_t, std::int32_t> asked_;  // function -> question, in the present copy

@@ -4,9 +4,10 @@
 #include "pfgeom/eval/solid_field.h"
 #include "pfgeom/fit/cuts.h"
 #include "pfgeom/fit/quadric.h"
-#include "pfgeom/mesh/mesh.h"
+#include "pfgeom/mesh/islands.h"
 #include "pfgeom/mesh/sample.h"
 #include "pfgeom/polygonize/polygonize.h"
+#include "polygonize/mesh_checks.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -50,10 +51,9 @@ TriangleMesh machined(double tolerance = 4e-4) {
                       {.tolerance = tolerance, .min_depth = 3});
 }
 
-bool is_closed_manifold(const TriangleMesh& mesh) {
-    const PreparedMesh prepared = prepare_mesh(mesh, 0);
-    return prepared.islands.size() == 1 && prepared.islands[0].closed && prepared.islands[0].manifold &&
-           prepared.islands[0].oriented;
+void expect_one_closed_manifold(const TriangleMesh& mesh) {
+    EXPECT_TRUE(test::is_closed_manifold(mesh));
+    EXPECT_EQ(find_pieces(mesh).size(), 1U);
 }
 
 double farthest_on(const Quadric& q, const TriangleMesh& mesh, const Cut& cut) {
@@ -67,7 +67,7 @@ double farthest_on(const Quadric& q, const TriangleMesh& mesh, const Cut& cut) {
 TEST(PolygonizeSolid, MeetsCreasesExactly) {
     const double tolerance = 4e-4;
     const TriangleMesh mesh = machined(tolerance);
-    ASSERT_TRUE(is_closed_manifold(mesh));
+    expect_one_closed_manifold(mesh);
     const Model model = machined_model();
     const SolidField field(model, std::get<Solid>(model.objects[0].shape));
     int on_floor = 0, in_hole = 0;
@@ -122,7 +122,7 @@ TEST(CutHierarchy, TakesFewerBytesAndKeepsItsCreases) {
     EXPECT_LT(cut->bytes, 0.85 * static_cast<double>(plain->bytes));
     EXPECT_LT(cut->deviation.max(), plain->deviation.max());
     EXPECT_EQ(cut->functions.size(), 3U);
-    EXPECT_TRUE(is_closed_manifold(cut->mesh));
+    expect_one_closed_manifold(cut->mesh);
 
     const Model model = model_of(goal, *cut);
     const ModelField field(model);
