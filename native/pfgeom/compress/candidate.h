@@ -30,6 +30,7 @@ struct Goal {
     double diagonal = 0;  ///< of the whole input
     bool inward = false;  ///< closed, and its normals point inwards
     Effort effort = Effort::normal;
+    bool painted = false;     ///< the model gets materials
     bool is_pattern = false;  ///< others place it: it gets no placements of its own
 };
 

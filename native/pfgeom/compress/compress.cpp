@@ -70,7 +70,8 @@ class Compressor {
 
     Goal goal_of(const TriangleMesh& mesh, const Bvh& bvh, bool inward) const {
         const double tolerance = share_ * (tolerance_ - moved());
-        return {mesh, bvh, tolerance, options_.metric, prepared_.diagonal, inward, options_.effort};
+        return {mesh,           bvh, tolerance, options_.metric, prepared_.diagonal, inward, options_.effort,
+                has_materials()};
     }
 
     // First those that repeat, then the others one by one.
@@ -99,8 +100,8 @@ class Compressor {
             const Task part =
                 part_of(task, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
             part.report(0, "fit");
-            std::optional<FittedCopies> fitted =
-                fit_copies(groups[g], {prepared_, tolerance, options_.metric, options_.effort}, part);
+            std::optional<FittedCopies> fitted = fit_copies(
+                groups[g], {prepared_, tolerance, options_.metric, options_.effort, has_materials()}, part);
             if (!fitted) continue;
             const std::size_t first = *std::min_element(fitted->islands.begin(), fitted->islands.end());
             for (const std::size_t i : fitted->islands) first_of_[i] = first;
@@ -270,7 +271,8 @@ class Compressor {
         if (!first) return false;  // asks for more work than its size allows
         const bool proved = reads_as_proved(*first);
         const TriangleMesh mesh =
-            proved ? mesh_of_islands() : to_mesh(*first, {}, quiet(task_, task_.threads));
+            proved ? mesh_of_islands()
+                   : to_mesh(*first, {.thin = !has_materials()}, quiet(task_, task_.threads));
         task_.report(0.96, "measure");
         DeviationOptions options;
         // Of a maximum, which is proved, samples tell only the rms beside it.

@@ -76,6 +76,9 @@ Compressed offset(const Model& model, double distance, CompressOptions options, 
 struct MeshOptions {
     std::optional<double> tolerance;  ///< extra error of the mesh against the functions, in the mesh's units
     std::optional<int> resolution;  ///< cells along the longest side, 8 .. 4096; not together with tolerance
+    /// The default mesh of set trees takes fewer triangles; false, and always with materials: its vertices lie
+    /// on the functions' surface.
+    bool thin = true;
 };
 
 /// The default mesh (neither option set) is the one that the promise is about.

@@ -68,7 +68,8 @@ class CopiesFit {
 
     Goal goal_for(const TriangleMesh& mesh, const Bvh& bvh, double tolerance) const {
         const bool inward = first().closed && first().signed_volume < 0;
-        return {mesh, bvh, tolerance, goal_.metric, goal_.prepared.diagonal, inward, goal_.effort, true};
+        return {mesh,   bvh,          tolerance,     goal_.metric, goal_.prepared.diagonal,
+                inward, goal_.effort, goal_.painted, true};
     }
 
     // Within what the share leaves.
@@ -153,7 +154,7 @@ class CopiesFit {
         if (!decoded) return;
         all.functions = decoded->functions;
         all.object = decoded->objects.front();
-        all.mesh = to_mesh(*decoded, {}, quiet(task_, task_.threads));
+        all.mesh = to_mesh(*decoded, {.thin = !goal_.painted}, quiet(task_, task_.threads));
         std::vector<Measured> measured(result_.islands.size());
         std::vector<double> bounds(result_.islands.size());
         parallel_chunks(measured.size(), 1, task_, [&](std::size_t i, std::size_t) {

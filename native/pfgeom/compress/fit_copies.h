@@ -23,6 +23,7 @@ struct CopiesGoal {
     double tolerance = 0;
     Metric metric = Metric::max;
     Effort effort = Effort::normal;
+    bool painted = false;
 };
 
 /// Nothing if the islands take fewer bytes one by one.

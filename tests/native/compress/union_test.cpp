@@ -52,7 +52,7 @@ TriangleMesh fish_mesh() {
     object.shape = tree;
     object.mesh_code = 40;  // chords of 2e-3
     model.objects.push_back(object);
-    return to_mesh(model);
+    return to_mesh(model, {.thin = false});
 }
 
 TEST(Compress, AUnionOfEllipsoidsIsAsManyFunctions) {
