@@ -124,9 +124,8 @@ class Model:
         """Triangles of the surface.
 
         Without ``tolerance`` and ``resolution`` this is the default mesh, which `bound_mesh` and `rms` are
-        about. Closed objects become closed 2-manifolds, counter-clockwise seen from outside. Set trees take fewer
-        triangles in the default mesh than their chords ask for; with either option, and with materials, the vertices
-        lie on the functions' surface.
+        about; of a set tree it goes without all vertices that it can spare. Closed objects become closed 2-manifolds,
+        counter-clockwise seen from outside.
 
         Parameters
         ----------

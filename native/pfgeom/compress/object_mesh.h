@@ -27,6 +27,7 @@ struct ObjectsToMesh {
     double chord_for(const Object& object) const;
     /// The longest cell or edge of the pattern.
     double cell_for(const Object& object) const;
+    bool thin() const { return options.thin && !options.tolerance && !options.resolution; }
 };
 
 /// Where its frame puts it; patterns lie there, too.

@@ -94,7 +94,7 @@ PaintedMesh mesh_of_operand(const Model& model, const CombinationNode& operand, 
 // Set operations do not keep materials.
 PaintedMesh whole_mesh(const Model& model, MeshOptions options, bool painted, const Task& task) {
     check_options(options);
-    if (options.tolerance || options.resolution || !model.materials.empty()) options.thin = false;
+    if (!model.materials.empty()) options.thin = false;
     const std::vector<CombinationNode> tree = combination_tree(model);
     PaintedMesh all;
     if (tree.back().is_operand())

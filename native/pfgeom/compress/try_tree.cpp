@@ -25,7 +25,7 @@ constexpr std::size_t kLarge = 40'000;  // faces
 // thinning may. At the shortest a filled pit can open that coarser meshes pass over (tri-plate_holes at
 // 1e-2).
 constexpr double kTreeShare = 0.97;
-constexpr double kChordShare = 0.36, kLeastChordShare = 0.08, kShorter = 0.84, kMeshOfChord = 2;
+constexpr double kChordShare = 0.36, kLeastChordShare = 0.08, kShorter = 0.84, kMeshOfChord = 2.5;
 constexpr double kLongChordShares[] = {0.4, 0.6};
 constexpr std::size_t kMostGrowth = 3;  // triangles of the mesh for each of the input
 constexpr int kMostProofs = 3;

@@ -170,15 +170,6 @@ void collapse_edges(CollapseMesh& mesh, CollapseError& error, const CollapseLimi
     Collapser(mesh, error, limits, task).run();
 }
 
-void collapse_in_rounds(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, int rounds,
-                        const Task& task) {
-    for (int round = 0; round < rounds; ++round) {
-        task.report(static_cast<double>(round) / rounds, "simplify");
-        if (round > 0) relax_vertices(mesh, error, limits, task);
-        collapse_edges(mesh, error, limits, task);
-    }
-}
-
 double collapse_spacing(const TriangleMesh& original, double tolerance, double samples_of_face) {
     const double most = std::min(kMostSamples, samples_of_face * static_cast<double>(original.faces.size()));
     return std::max(kSpacing * tolerance, std::sqrt(surface_area(original) / most));

@@ -15,9 +15,10 @@ namespace pfgeom {
 
 struct CollapseLimits {
     Metric metric = Metric::max;
-    double forward = 0;   ///< max: of every sample; rms: of the mean over the surface
-    double backward = 0;  ///< of every point of the new surface
-    double size = 1;      ///< diagonal: between equal errors, shorter edges go first
+    double forward = 0;        ///< max: of every sample; rms: of the mean over the surface
+    double backward = 0;       ///< of every point of the new surface
+    double size = 1;           ///< diagonal: between equal errors, shorter edges go first
+    bool keep_places = false;  ///< no vertex moves: an edge becomes one of its ends
 };
 
 /// Collapses until nothing more fits within the limits. Reports progress in [from, to].
@@ -25,10 +26,6 @@ void collapse_edges(CollapseMesh& mesh, CollapseError& error, const CollapseLimi
 
 /// Moves each vertex to where its samples fit better.
 void relax_vertices(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, const Task& task);
-
-/// Both in turn: so many rounds of collapses. Reports progress.
-void collapse_in_rounds(CollapseMesh& mesh, CollapseError& error, const CollapseLimits& limits, int rounds,
-                        const Task& task);
 
 /// Between the samples of an error on large faces and edges; at most so many on a face in the mean.
 double collapse_spacing(const TriangleMesh& original, double tolerance,

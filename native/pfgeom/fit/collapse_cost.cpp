@@ -40,9 +40,15 @@ PlaneQuadric CollapseCost::quadric(std::int32_t u, std::int32_t v) const {
     return q;
 }
 
+Vec3 CollapseCost::place_of(const PlaneQuadric& q, std::int32_t u, std::int32_t v) const {
+    const Vec3 &p = mesh_.point(u), &r = mesh_.point(v);
+    if (limits_.keep_places) return q(p) < q(r) ? p : r;
+    return error_.placed(q.least((p + r) * 0.5));
+}
+
 CollapseEntry CollapseCost::estimate(std::int32_t u, std::int32_t v, std::uint32_t clock) const {
     const PlaneQuadric q = quadric(u, v);
-    const Vec3 place = q.least((mesh_.point(u) + mesh_.point(v)) * 0.5);
+    const Vec3 place = place_of(q, u, v);
     const double rest = q(place), rms = std::sqrt(rest / std::max(q.weight, 1e-300));
     // Both in the unit of forward(): the quadrics' weights are doubled areas, counted at three corners.
     const double cost = limits_.metric == Metric::max ? rms : rest / 6;
@@ -66,12 +72,17 @@ double CollapseCost::cost_of(const Patch& patch, double most) const {
 
 MeasuredCollapse CollapseCost::measure(std::int32_t u, std::int32_t v) const {
     const double most = limit();
-    const Vec3 place = error_.placed(quadric(u, v).least((mesh_.point(u) + mesh_.point(v)) * 0.5));
+    const Vec3 place = place_of(quadric(u, v), u, v);
     MeasuredCollapse best;
     mesh_.patch_of_collapse(u, v, place, best.patch);
     if (best.patch.curved()) error_.bend(best.patch);
     best.cost = cost_of(best.patch, kMayBeSaved * most);
-    if (best.cost > kWorthFitting * most && best.cost < kInfinity) {
+    if (limits_.keep_places) {
+        if (best.cost > most) {
+            best.patch.move_to(place == mesh_.point(u) ? mesh_.point(v) : mesh_.point(u));
+            best.cost = cost_of(best.patch, most);
+        }
+    } else if (best.cost > kWorthFitting * most && best.cost < kInfinity) {
         Patch fitted = best.patch;
         if (fitted.curved())
             error_.refit(fitted, true);

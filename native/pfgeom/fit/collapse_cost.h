@@ -32,6 +32,8 @@ class CollapseCost {
     double limit() const;
     double cost_of(const Patch& patch, double most) const;
     PlaneQuadric quadric(std::int32_t u, std::int32_t v) const;
+    /// Of the vertex that the edge becomes.
+    Vec3 place_of(const PlaneQuadric& q, std::int32_t u, std::int32_t v) const;
     bool on_border(std::int32_t v) const { return !mesh_.neighbours(v, false).empty(); }
 
     const CollapseMesh& mesh_;

@@ -9,8 +9,6 @@ namespace {
 // Samples on large faces, for each face: without a limit it takes twice the time (fandisk, tri-plate_holes
 // and tri-featuretype at 1e-3), and 1 % fewer faces come out, or more.
 constexpr double kSamplesOfFace = 4;
-// The third takes half as long again, for 0.3 to 2 % (the same).
-constexpr int kRounds = 2;
 
 }  // namespace
 
@@ -19,8 +17,8 @@ TriangleMesh thinned(const TriangleMesh& mesh, double distance, const Task& task
     const FittedSurface surface(mesh, options);
     CollapseMesh work = surface.start(false);
     CollapseError error = surface.error(distance, collapse_spacing(mesh, distance, kSamplesOfFace), task);
-    const CollapseLimits limits{Metric::max, distance, distance, surface.box().diagonal()};
-    collapse_in_rounds(work, error, limits, kRounds, task);
+    const double size = surface.box().diagonal();
+    collapse_edges(work, error, {Metric::max, distance, distance, size, true}, task);
     return work.result();
 }
 

@@ -1,5 +1,5 @@
-// Fewer triangles for a mesh of functions: chords follow every bend alike, edge collapses use what each place
-// leaves.
+// Fewer triangles for a mesh of functions: cells and chords follow every bend alike, edge collapses use what
+// each place leaves.
 #pragma once
 
 #include "pfgeom/base/task.h"
@@ -7,8 +7,9 @@
 
 namespace pfgeom {
 
-/// The mesh with fewer triangles, collapsed to lie within `distance` of it both ways, borders too. Closed
-/// manifolds stay closed manifolds, of their genus. Deterministic.
+/// The mesh without the vertices that it can spare within `distance` both ways, borders too. The others stay
+/// where they are, so flat faces stay flat and creases on their curves. Closed manifolds stay closed
+/// manifolds of their genus. Deterministic.
 TriangleMesh thinned(const TriangleMesh& mesh, double distance, const Task& task = {});
 
 }  // namespace pfgeom

@@ -7,10 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace pfgeom {
 namespace {
 
-TEST(Thin, ClosedSurfacesStayClosedAndNear) {
+TEST(Thin, ClosedSurfacesStayClosedAndVerticesWhereTheyAre) {
     for (const TriangleMesh& mesh : {shapes::sphere(4), shapes::torus(1, 0.4, 96, 48), shapes::cylinder(96),
                                      shapes::bumpy_sphere(4), shapes::casting()}) {
         SCOPED_TRACE(mesh.faces.size());
@@ -20,6 +22,7 @@ TEST(Thin, ClosedSurfacesStayClosedAndNear) {
         EXPECT_LT(test::two_sided(mesh, thin), 1.02 * distance);
         EXPECT_TRUE(test::is_closed_manifold(thin));
         EXPECT_EQ(test::euler_characteristic(thin), test::euler_characteristic(mesh));
+        for (const Vec3& v : thin.vertices) EXPECT_EQ(std::ranges::count(mesh.vertices, v), 1);
     }
 }
 
