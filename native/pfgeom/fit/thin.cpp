@@ -1,7 +1,6 @@
 #include "pfgeom/fit/thin.h"
 
 #include "pfgeom/fit/collapse.h"
-#include "pfgeom/fit/fitted_surface.h"
 
 namespace pfgeom {
 namespace {
@@ -13,12 +12,9 @@ constexpr double kSamplesOfFace = 4;
 }  // namespace
 
 TriangleMesh thinned(const TriangleMesh& mesh, double distance, const Task& task) {
-    const MeshPartOptions options{.tolerance = distance};
-    const FittedSurface surface(mesh, options);
-    CollapseMesh work = surface.start(false);
-    CollapseError error = surface.error(distance, collapse_spacing(mesh, distance, kSamplesOfFace), task);
-    const double size = surface.box().diagonal();
-    collapse_edges(work, error, {Metric::max, distance, distance, size, true}, task);
+    CollapseMesh work(mesh);  // no slivers, unlike mesh parts, which want few bytes
+    CollapseError error(mesh, Metric::max, distance, collapse_spacing(mesh, distance, kSamplesOfFace), task);
+    collapse_edges(work, error, {Metric::max, distance, distance, diagonal(mesh), true}, task);
     return work.result();
 }
 
