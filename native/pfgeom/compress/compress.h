@@ -76,8 +76,8 @@ Compressed offset(const Model& model, double distance, CompressOptions options, 
 struct MeshOptions {
     std::optional<double> tolerance;  ///< extra error of the mesh against the functions, in the mesh's units
     std::optional<int> resolution;  ///< cells along the longest side, 8 .. 4096; not together with tolerance
-    bool thin =
-        true;  ///< the default mesh of set trees goes without vertices that it can spare, but for materials
+    /// The default mesh of set trees goes without vertices that it can spare. Models with materials keep all.
+    bool thin = true;
 };
 
 /// The default mesh (neither option set) is the one that the promise is about.

@@ -23,9 +23,9 @@ constexpr double kSnapShare = 1.0 / 16;
 // Of the diagonal, where no tolerance was named.
 constexpr double kSnapOfDiagonal = 1e-4;
 
-// How far the default mesh of a set tree may be from the one with its chords, in these. With 2.2 shorter
-// chords hold, and there are as many triangles. If vertices moved, they would be 5 to 20 % fewer, but flat
-// sides not flat.
+// How far the default mesh of a set tree may be from the one with its chords, in these. With 2.2 chords
+// must be shorter, and there are as many triangles. If vertices moved, they would be 5 to 20 % fewer, but
+// flat sides not flat.
 constexpr double kThin = 1.5;
 // Larger ones stay as they are: it takes 0.05 ms a face, and nobody wants to wait for a mesh.
 constexpr std::size_t kMostThinned = 25'000;

@@ -87,14 +87,14 @@ class TreeSearch {
             std::optional<TreeCandidate> found = smallest(share, goal_.tolerance);
             if (!found) return {};
             double reached = 0, chord = kChordShare;
-            for (bool last = false; !last;) {
-                last = chord == kLeastChordShare;
+            for (;;) {
                 Outcome outcome = prove_tree(*found, chord * goal_.tolerance, goal_.tolerance);
                 if (outcome.holds) return slimmer(*found, std::move(outcome));
                 if (outcome.mesh.faces.empty()) return {};
                 reached = outcome.deviation.max() / goal_.tolerance;
                 chord = std::min(kShorter * chord, chord - (reached - 1) / kMeshOfChord);
                 chord = std::max(chord, kLeastChordShare);
+                if (mesh_code_for(goal_, chord * goal_.tolerance) == outcome.object.mesh_code) break;
             }
             share *= std::clamp(0.99 / reached, 0.7, 0.97);
         }

@@ -18,7 +18,7 @@ struct CollapseLimits {
     double forward = 0;        ///< max: of every sample; rms: of the mean over the surface
     double backward = 0;       ///< of every point of the new surface
     double size = 1;           ///< diagonal: between equal errors, shorter edges go first
-    bool keep_places = false;  ///< no vertex moves: an edge becomes one of its ends
+    bool keep_places = false;  ///< flat faces: no vertex moves, an edge becomes one of its ends
 };
 
 /// Collapses until nothing more fits within the limits. Reports progress in [from, to].

@@ -43,7 +43,7 @@ PlaneQuadric CollapseCost::quadric(std::int32_t u, std::int32_t v) const {
 Vec3 CollapseCost::place_of(const PlaneQuadric& q, std::int32_t u, std::int32_t v) const {
     const Vec3 &p = mesh_.point(u), &r = mesh_.point(v);
     if (limits_.keep_places) return q(p) < q(r) ? p : r;
-    return error_.placed(q.least((p + r) * 0.5));
+    return q.least((p + r) * 0.5);
 }
 
 CollapseEntry CollapseCost::estimate(std::int32_t u, std::int32_t v, std::uint32_t clock) const {
@@ -72,7 +72,7 @@ double CollapseCost::cost_of(const Patch& patch, double most) const {
 
 MeasuredCollapse CollapseCost::measure(std::int32_t u, std::int32_t v) const {
     const double most = limit();
-    const Vec3 place = place_of(quadric(u, v), u, v);
+    const Vec3 place = error_.placed(place_of(quadric(u, v), u, v));
     MeasuredCollapse best;
     mesh_.patch_of_collapse(u, v, place, best.patch);
     if (best.patch.curved()) error_.bend(best.patch);

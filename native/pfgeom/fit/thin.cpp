@@ -6,7 +6,7 @@ namespace pfgeom {
 namespace {
 
 // Samples on large faces, for each face: without a limit it takes twice the time (fandisk, tri-plate_holes
-// and tri-featuretype at 1e-3), and 1 % fewer faces come out, or more.
+// and tri-featuretype at 1e-3), and the number of faces differs by 1 to 4 %, either way.
 constexpr double kSamplesOfFace = 4;
 
 }  // namespace
