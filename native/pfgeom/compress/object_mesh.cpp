@@ -27,6 +27,9 @@ constexpr double kSnapOfDiagonal = 1e-4;
 // must be shorter, and there are as many triangles. If vertices moved, they would be 5 to 20 % fewer, but
 // flat sides not flat.
 constexpr double kThin = 1.5;
+// The highest steps that are closed in that mesh, in chords; at chords of a quarter of the tolerance those of
+// two tolerances, which no tree exceeds.
+constexpr double kHighestStep = 8.5;
 // Larger ones stay as they are: it takes 0.05 ms a face, and nobody wants to wait for a mesh.
 constexpr std::size_t kMostThinned = 25'000;
 
@@ -179,7 +182,9 @@ TriangleMesh mesh_in_place(const Model& model, const ObjectsToMesh& all, const O
         mesh = polygonize(model, shape, how, task);
     } else if (const auto* tree = std::get_if<SetTree>(&object.shape)) {
         complement = tree->complement;
-        mesh = polygonize(*tree, how, task);
+        PolygonizeOptions closed = how;
+        if (all.thin()) closed.highest_step = kHighestStep * how.tolerance;
+        mesh = polygonize(*tree, closed, task);
     } else {
         mesh = mesh_of_sheet(model, all, object, task);
     }

@@ -42,7 +42,6 @@ class Adapter {
     }
 
   private:
-    std::vector<Label> labels_around(std::int32_t h) const;
     void place_vertices();
     bool place_exactly(std::int32_t h, std::span<const Label> labels);
     bool faces_outside_at(std::int32_t h, const Vec3& p) const;
@@ -64,18 +63,6 @@ class Adapter {
     std::vector<std::int32_t> waiting_;  // half-edges from vertices that are not yet where they belong
 };
 
-// Of the faces around from(h), each once.
-std::vector<Label> Adapter::labels_around(std::int32_t h) const {
-    std::vector<Label> labels;
-    std::int32_t spoke = h;
-    do {
-        if (std::find(labels.begin(), labels.end(), m_.label_at(spoke)) == labels.end())
-            labels.push_back(m_.label_at(spoke));
-        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
-    } while (spoke != h);
-    return labels;
-}
-
 void Adapter::place_vertices() {
     std::vector<char> placed(m_.mesh.position.size());
     for (std::int32_t h = 0; h < m_.mesh.half_edges(); ++h) {
@@ -83,7 +70,7 @@ void Adapter::place_vertices() {
         const std::int32_t v = m_.mesh.from(h);
         if (placed[v]) continue;
         placed[v] = 1;
-        const std::vector<Label> labels = labels_around(h);
+        const std::vector<Label> labels = m_.labels_around(h);
         if (labels.size() > 1 && place_exactly(h, labels)) continue;
         surface_.project(labels, kReach * options_.face_tolerance, options_.accuracy, m_.mesh.position[v]);
     }
@@ -194,7 +181,7 @@ void Adapter::split_edges() {
 
 // Once there is room.
 void Adapter::place_waiting() {
-    std::erase_if(waiting_, [&](std::int32_t h) { return place_exactly(h, labels_around(h)); });
+    std::erase_if(waiting_, [&](std::int32_t h) { return place_exactly(h, m_.labels_around(h)); });
 }
 
 // At the arc's middle. Where a triangle would turn over, half as far from the chord: its neighbours are

@@ -152,6 +152,15 @@ std::vector<std::int32_t> Manifold::doubled_edges() const {
 
 }  // namespace
 
+std::vector<Label> LabelledMesh::labels_around(std::int32_t half_edge) const {
+    std::vector<Label> labels;
+    mesh.for_each_spoke(half_edge, [&](std::int32_t spoke) {
+        if (std::find(labels.begin(), labels.end(), label_at(spoke)) == labels.end())
+            labels.push_back(label_at(spoke));
+    });
+    return labels;
+}
+
 std::int32_t LabelledMesh::split(std::int32_t half_edge, const Vec3& point) {
     const auto vertex = static_cast<std::int32_t>(mesh.position.size());
     mesh.position.push_back(point);

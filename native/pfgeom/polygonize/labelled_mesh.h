@@ -15,6 +15,8 @@ struct LabelledMesh {
     bool crease(std::int32_t half_edge) const {
         return label_at(half_edge) != label_at(mesh.twin(half_edge));
     }
+    /// Of the faces around from(h), each once.
+    std::vector<Label> labels_around(std::int32_t half_edge) const;
     /// Cuts the edge at a new vertex; returns it.
     std::int32_t split(std::int32_t half_edge, const Vec3& point);
     void compact();

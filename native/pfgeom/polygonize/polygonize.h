@@ -20,6 +20,9 @@ struct PolygonizeOptions {
     int max_depth = 10;       ///< nor smaller than 2 / 2^max_depth; min == max: a uniform grid
     std::size_t max_cells = Limits{}.polygon_cells;
     std::size_t max_faces = Limits{}.polygon_faces;
+    /// Of trees: where a wall no higher than this stands between surfaces that face the same way the mesh
+    /// leads from the one to the other without it. What folds are narrower go, too.
+    double highest_step = 0;
 };
 
 /// Throws InvalidInput where an option makes no sense.

@@ -9,8 +9,10 @@
 // tree again.
 #include "pfgeom/mesh/islands.h"
 #include "pfgeom/mesh/weld.h"
+#include "pfgeom/polygonize/close_steps.h"
 #include "pfgeom/polygonize/crease_adapt.h"
 #include "pfgeom/polygonize/polygonize.h"
+#include "pfgeom/polygonize/unfold.h"
 
 #include <cmath>
 #include <vector>
@@ -34,6 +36,9 @@ constexpr double kAccuracy = 0.01;
 // shape, which is one piece: slivers that the tree leaves within its tube (a printed part's has two, of four
 // vertices each, up to 20 long).
 constexpr double kBit = 1.0 / 3;
+
+// In heights of the highest step, as steps are wide that slope.
+constexpr double kLongestBesideFolds = 2;
 
 struct Extent {
     double volume = 0, area = 0;
@@ -101,7 +106,12 @@ LabelledMesh labelled_mesh_of(const CutSolid& solid, const PolygonizeOptions& op
                                      .accuracy = kAccuracy * options.tolerance,
                                      .shortest_edge = 2.0 / std::ldexp(1.0, options.max_depth),
                                      .max_faces = options.max_faces};
-    adapt_creases(LabelSurface(solid), adapt_options, mesh, task);
+    const LabelSurface surface(solid);
+    adapt_creases(surface, adapt_options, mesh, task);
+    if (options.highest_step > 0) {
+        close_steps(surface, options.highest_step, mesh, task);
+        unfold(kLongestBesideFolds * options.highest_step, mesh, task);
+    }
     task.report(1, "triangles");
     return mesh;
 }

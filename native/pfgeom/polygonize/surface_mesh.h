@@ -40,6 +40,15 @@ class SurfaceMesh {
     std::int32_t twin(std::int32_t h) const { return twins_[h]; }
     bool alive(std::int32_t face) const { return faces_[face][0] >= 0; }
 
+    /// visit(half-edge) for each from from(h), h first.
+    template <class Visit>
+    void for_each_spoke(std::int32_t h, Visit visit) const {
+        std::int32_t spoke = h;
+        do {
+            visit(spoke);
+            spoke = twin(previous(spoke));
+        } while (spoke != h);
+    }
     /// Are the two ends of the half-edges' start vertices joined? Walks around from(h).
     bool joined(std::int32_t h, std::int32_t vertex) const;
     int valence(std::int32_t h) const;  ///< of from(h)

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -45,6 +46,29 @@ inline ::testing::AssertionResult is_closed_manifold(const TriangleMesh& mesh) {
 
 inline int euler_characteristic(const TriangleMesh& mesh) {
     return static_cast<int>(mesh.vertices.size()) - static_cast<int>(mesh.faces.size()) / 2;  // E = 3F/2
+}
+
+struct Turns {
+    int count = 0;
+    double length = 0;
+};
+/// Edges whose faces turn by more than so many degrees.
+inline Turns edges_that_turn(const TriangleMesh& mesh, double degrees) {
+    std::map<std::pair<std::int32_t, std::int32_t>, Vec3> normals;  // by half-edge
+    for (const Triangle& f : mesh.faces) {
+        const Vec3& a = mesh.vertices[f[0]];
+        const Vec3 n = normalized(cross(mesh.vertices[f[1]] - a, mesh.vertices[f[2]] - a));
+        for (std::size_t k = 0; k < 3; ++k) normals[{f[k], f[(k + 1) % 3]}] = n;
+    }
+    const double cosine = std::cos(degrees * 3.14159265358979323846 / 180);
+    Turns turns;
+    for (const auto& [edge, n] : normals) {
+        const auto& [a, b] = edge;
+        if (a > b || dot(n, normals.at({b, a})) >= cosine) continue;
+        ++turns.count;
+        turns.length += norm(mesh.vertices[a] - mesh.vertices[b]);
+    }
+    return turns;
 }
 
 struct Fit {

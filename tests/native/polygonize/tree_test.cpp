@@ -7,8 +7,6 @@
 #include "pfgeom/polygonize/polygonize.h"
 #include "trees.h"
 
-#include <map>
-
 namespace pfgeom::test {
 namespace {
 
@@ -220,48 +218,6 @@ TEST(Tree, TouchingBoxes) {
     }
 }
 
-RegionPtr random_region(Random& random, int depth) {
-    if (depth == 0) return leaf(random.below(2) != 0);
-    const auto any = [&] { return 2 * random.uniform() - 1; };
-    const Vec3 p{any(), any(), any()}, n = normalized({any(), any(), any()});
-    Quadric q;
-    switch (random.below(6)) {
-        case 0:
-            q = half_space(n, 0.6 * any());
-            break;
-        case 1:
-            q = half_space({0, 0, 1}, static_cast<double>(random.below(17)) / 16 - 0.5);
-            break;  // on the grid
-        case 2:
-            q = turned(p, 0.2 + 0.4 * random.uniform());
-            break;
-        case 3:
-            q = turned(p, 0.1 + 0.3 * random.uniform(), n);
-            break;
-        case 4:
-            q = turned(p, 0.1 + 0.3 * random.uniform(), n, any());
-            break;
-        default:
-            for (double& c : q.c) c = any();
-    }
-    return ask(q, random_region(random, depth - 1 - static_cast<int>(random.below(2)) * (depth > 1)),
-               random_region(random, depth - 1));
-}
-
-/// Edges at which the mesh turns back by more than 154 degrees.
-int folds(const TriangleMesh& mesh) {
-    std::map<std::pair<std::int32_t, std::int32_t>, Vec3> normals;  // by half-edge
-    for (const Triangle& f : mesh.faces) {
-        const Vec3& a = mesh.vertices[f[0]];
-        const Vec3 n = normalized(cross(mesh.vertices[f[1]] - a, mesh.vertices[f[2]] - a));
-        for (std::size_t k = 0; k < 3; ++k) normals[{f[k], f[(k + 1) % 3]}] = n;
-    }
-    int count = 0;
-    for (const auto& [edge, n] : normals)
-        count += edge.first < edge.second && dot(n, normals.at({edge.second, edge.first})) < -0.9;
-    return count;
-}
-
 /// Faces without area, with the coordinates as they are or in single precision.
 int without_area(const TriangleMesh& mesh) {
     int count = 0;
@@ -288,7 +244,7 @@ TEST(Tree, RandomTreesAreManifoldsAndRight) {
         ASSERT_TRUE(is_closed_manifold(mesh)) << seed;
         faces += mesh.faces.size();
         wrong += misjudged(tree, mesh, 2 * tolerance, seed);
-        folded += folds(mesh);
+        folded += edges_that_turn(mesh, 154).count;
         EXPECT_EQ(without_area(mesh), 0) << seed;
     }
     EXPECT_LT(folded, 140);

@@ -81,6 +81,34 @@ inline RegionPtr box(const Vec3& lo, const Vec3& hi) {
     return region;
 }
 
+inline RegionPtr random_region(Random& random, int depth) {
+    if (depth == 0) return leaf(random.below(2) != 0);
+    const auto any = [&] { return 2 * random.uniform() - 1; };
+    const Vec3 p{any(), any(), any()}, n = normalized({any(), any(), any()});
+    Quadric q;
+    switch (random.below(6)) {
+        case 0:
+            q = half_space(n, 0.6 * any());
+            break;
+        case 1:
+            q = half_space({0, 0, 1}, static_cast<double>(random.below(17)) / 16 - 0.5);
+            break;  // on the grid
+        case 2:
+            q = turned(p, 0.2 + 0.4 * random.uniform());
+            break;
+        case 3:
+            q = turned(p, 0.1 + 0.3 * random.uniform(), n);
+            break;
+        case 4:
+            q = turned(p, 0.1 + 0.3 * random.uniform(), n, any());
+            break;
+        default:
+            for (double& c : q.c) c = any();
+    }
+    return ask(q, random_region(random, depth - 1 - static_cast<int>(random.below(2)) * (depth > 1)),
+               random_region(random, depth - 1));
+}
+
 /// As a set tree whose box is the whole cube.
 inline SetTree tree_of(const RegionPtr& region) {
     SetTree tree;

@@ -1,0 +1,15 @@
+// Steps in a tree's mesh: strips of wall between two surfaces that face the same way but do not quite meet.
+#pragma once
+
+#include "pfgeom/base/task.h"
+#include "pfgeom/polygonize/label_surface.h"
+#include "pfgeom/polygonize/labelled_mesh.h"
+
+namespace pfgeom {
+
+/// Joins both sides of each wall that is no higher than `highest`: edges across it become their middles, or
+/// one of their ends where that bends less and the step is half as high. What it leaves, `highest` may be
+/// off. `mesh` stays a closed 2-manifold of its genus; its labels hold but for the joined borders.
+void close_steps(const LabelSurface& surface, double highest, LabelledMesh& mesh, const Task& task);
+
+}  // namespace pfgeom
