@@ -124,8 +124,9 @@ class Model:
         """Triangles of the surface.
 
         Without ``tolerance`` and ``resolution`` this is the default mesh, which `bound_mesh` and `rms` are
-        about; of a set tree it goes without all vertices that it can spare. Closed objects become closed 2-manifolds,
-        counter-clockwise seen from outside.
+        about; of a set tree it goes without all vertices that it can spare, and by the maximum without steps
+        between surfaces that do not quite meet. Closed objects become closed 2-manifolds, counter-clockwise
+        seen from outside.
 
         Parameters
         ----------

@@ -78,7 +78,8 @@ struct MeshOptions {
     std::optional<double> tolerance{};
     std::optional<int>
         resolution{};  ///< cells along the longest side, 8 .. 4096; not together with tolerance
-    /// The default mesh of set trees goes without vertices that it can spare. Models with materials keep all.
+    /// The default mesh of set trees goes without vertices that it can spare and, by the maximum, without steps
+    /// lower than two tolerances. Models with materials keep all.
     bool thin = true;
 };
 

@@ -21,6 +21,8 @@ constexpr double kWidest = 2;     // of walls that slope, in heights of the high
 // Of the highest step: a higher one goes to the middle or stays. It may be there in truth, and then a
 // pocket's floor would come up to its rim.
 constexpr double kToOneSide = 0.5;
+// New vertices may make so many times the triangles, and no more: what a hostile file asks for must end.
+constexpr std::int32_t kMostGrowth = 2;
 // Accuracy of new vertices, in heights.
 constexpr double kAccuracy = 1e-3;
 
@@ -30,8 +32,8 @@ class StepCloser {
         : surface_(surface), highest_(highest), m_(mesh), tests_(mesh, surface), task_(task) {}
 
     void run() {
+        cut_sides();
         for (int round = 0; round < kRounds; ++round) {
-            cut_sides();
             const bool joined = join_sides();
             if (!peel_walls() && !joined) break;
         }
@@ -87,7 +89,7 @@ bool StepCloser::above_step(std::int32_t h) const {
 // Both sides of a wall get vertices opposite to each other.
 void StepCloser::cut_sides() {
     const std::int32_t last = m_.mesh.half_edges();
-    for (std::int32_t h = 0; h < last; ++h) {
+    for (std::int32_t h = 0; h < last && m_.mesh.half_edges() < kMostGrowth * last; ++h) {
         if (h % 1024 == 0) task_.check();
         if (above_step(h)) cut(h);
     }
@@ -137,7 +139,10 @@ bool StepCloser::join_sides() {
     }
     std::sort(edges.begin(), edges.end());
     bool any = false;
-    for (const auto& [length, h] : edges) any |= m_.mesh.alive(h / 3) && join(h);
+    for (const auto& [length, h] : edges) {
+        task_.check();
+        any |= m_.mesh.alive(h / 3) && join(h);
+    }
     m_.compact();
     return any;
 }
@@ -153,8 +158,10 @@ bool StepCloser::join(std::int32_t h) {
     }
     if (height > kToOneSide * highest_) return false;
     const bool back = facing(g, here) > facing(h, there);
-    return (back ? may_move(g, here) && m_.mesh.collapse(g) : may_move(h, there) && m_.mesh.collapse(h)) ||
-           (back ? may_move(h, there) && m_.mesh.collapse(h) : may_move(g, here) && m_.mesh.collapse(g));
+    for (const std::int32_t e : {back ? g : h, back ? h : g}) {
+        if (may_move(e, at(m_.mesh.to(e))) && m_.mesh.collapse(e)) return true;
+    }
+    return false;
 }
 
 // The least cosine between the triangles around from(h), were it at p, and what they show, but for those that
