@@ -74,12 +74,12 @@ Compressed compress(const PaintedMesh& mesh, const CompressOptions& options, con
 Compressed offset(const Model& model, double distance, CompressOptions options, const Task& task = {});
 
 struct MeshOptions {
-    /// extra error of the mesh against the functions, in the mesh's units
+    /// Extra error of the mesh against the functions, in the mesh's units.
     std::optional<double> tolerance{};
-    std::optional<int>
-        resolution{};  ///< cells along the longest side, 8 .. 4096; not together with tolerance
-    /// The default mesh of set trees goes without vertices that it can spare and, by the maximum, without steps
-    /// lower than two tolerances. Models with materials keep all.
+    /// Cells along the longest side, 8 .. 4096; not together with tolerance.
+    std::optional<int> resolution{};
+    /// The default mesh of set trees goes without vertices that it can spare and, by the maximum, without
+    /// steps lower than two tolerances. Models with materials keep all.
     bool thin = true;
 };
 
