@@ -118,7 +118,7 @@ check-warnings: check-tools $(stamp)/installed
 	cmake --build $(release) --parallel $(jobs)
 
 # Left out: what takes minutes here and sees no code that the others do not.
-too_slow := Simplify.(DoesNotDependOnThreads|RmsIsKept)|Manifold.Noise|Compress.(SmoothFreeForms|EveryEffort|HoldsItsPromiseAtFine)|CompressCopies.(AmongOther|AreOneObject)|MirroredModel.(TakesFewer|CopiesOf|Materials)|MirroredPart.(IsExactly|BothHalves)|Paint.FunctionsDoNotChange|Sheet.AFreeFormWithHolesTakes|Manifold.*pebble|Manifold.RandomBumps|Simplify.KeepsTheTolerance|CompressCopies.FaceOut|TreeBound.(FindsPlanted|AgreesWithDense)|MirroredModel.(Answers|APlane)|CutHierarchy.TakesFewer|Paint.ABlob|Copies.BytesDoNot|Copies.OnlyWhere
+too_slow := Simplify.(DoesNotDependOnThreads|RmsIsKept)|Manifold.Noise|Compress.(SmoothFreeForms|EveryEffort|HoldsItsPromiseAtFine)|CompressCopies.(AmongOther|AreOneObject)|MirroredModel.(TakesFewer|CopiesOf|Materials)|MirroredPart.(IsExactly|BothHalves|IsTheSame)|Paint.FunctionsDoNotChange|Sheet.AFreeFormWithHolesTakes|Manifold.*pebble|Manifold.RandomBumps|Simplify.KeepsTheTolerance|CompressCopies.FaceOut|TreeBound.(FindsPlanted|AgreesWithDense)|MirroredModel.(Answers|APlane)|CutHierarchy.TakesFewer|Paint.ABlob|Copies.BytesDoNot|Copies.OnlyWhere|CurvedPart.RoundBorders|Offset.OfRms|Simplify.TheWall
 check-sanitizers: check-tools
 	cmake --preset asan >/dev/null
 	cmake --build build/asan --parallel $(jobs)
