@@ -11,7 +11,7 @@ OUT ?= out
 # ON: warnings are errors in the release build
 WERROR ?= OFF
 # check: executions of the header's and the coder's fuzz targets; of the whole file's a tenth. A campaign takes 200000.
-FUZZ_RUNS ?= 40000
+FUZZ_RUNS ?= 20000
 
 jobs := $(shell nproc)
 venv := .venv/bin

@@ -7,9 +7,9 @@
 
 namespace pfgeom {
 
-/// Joins both sides of each wall that is no higher than `highest`: edges across it become their middles, or
-/// one of their ends where that bends less and the step is half as high. What it leaves, `highest` may be
-/// off. `mesh` stays a closed 2-manifold of its genus; its labels hold but for the joined borders.
+/// Joins both sides of each wall that is no higher than `highest`: edges across it become their middles, or,
+/// of steps no more than half as high, one of their ends. `mesh` stays a closed 2-manifold of its genus;
+/// faces at joined borders are off their labels' surfaces, by less than the step.
 void close_steps(const LabelSurface& surface, double highest, LabelledMesh& mesh, const Task& task);
 
 }  // namespace pfgeom

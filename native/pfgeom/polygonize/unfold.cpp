@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kRounds = 8;
 constexpr double kFold = -0.9;  // cosine of the angle between the normals of its faces, at most
+// Of both ends of an edge that may be collapsed: looking at more takes the square of the time.
+constexpr int kMostNeighbours = 100;
 
 class Unfolder {
   public:
@@ -62,7 +64,9 @@ std::int32_t Unfolder::best_beside(std::int32_t h) {
                                     SurfaceMesh::previous(g)}) {
         for (const std::int32_t e : {edge, mesh_.twin(edge)}) {
             const std::int32_t from = mesh_.from(e), to = mesh_.to(e);
-            if (squared_norm(at(from) - at(to)) > square_) continue;
+            if (squared_norm(at(from) - at(to)) > square_ ||
+                mesh_.valence(e) + mesh_.valence(mesh_.twin(e)) > kMostNeighbours)
+                continue;
             const std::vector<std::int32_t> faces = faces_around(e);
             const double before = bend(faces);
             moved_ = from, to_ = to;
