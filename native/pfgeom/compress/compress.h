@@ -79,7 +79,7 @@ struct MeshOptions {
     /// Cells along the longest side, 8 .. 4096; not together with tolerance.
     std::optional<int> resolution{};
     /// The default mesh of set trees goes without vertices that it can spare and, by the maximum, without
-    /// steps lower than two tolerances. Models with materials keep all.
+    /// low steps between its surfaces. Models with materials keep all.
     bool thin = true;
 };
 

@@ -55,7 +55,6 @@ class StepCloser {
     bool join_sides();
     double height_across(std::int32_t h) const;
     bool join(std::int32_t h);
-    bool may_move(std::int32_t h, const Vec3& p) const { return facing(h, p) >= kFacing; }
     double facing(std::int32_t h, const Vec3& p) const;
     double facing(Label label, const std::array<Vec3, 3>& t) const;
     bool peel_walls();
@@ -152,14 +151,15 @@ bool StepCloser::join(std::int32_t h) {
     if (height < 0) return false;
     const std::int32_t g = m_.mesh.twin(h), b = m_.mesh.to(h);
     const Vec3 here = at(m_.mesh.from(h)), there = at(b), middle = (here + there) / 2;
-    if (may_move(h, middle) && may_move(g, middle) && m_.mesh.collapse(h)) {
+    if (facing(h, middle) >= kFacing && facing(g, middle) >= kFacing && m_.mesh.collapse(h)) {
         m_.mesh.position[b] = middle;
         return true;
     }
     if (height > kToOneSide * highest_) return false;
-    const bool back = facing(g, here) > facing(h, there);
-    for (const std::int32_t e : {back ? g : h, back ? h : g}) {
-        if (may_move(e, at(m_.mesh.to(e))) && m_.mesh.collapse(e)) return true;
+    std::pair first{facing(h, there), h}, second{facing(g, here), g};
+    if (second.first > first.first) std::swap(first, second);
+    for (const auto& [cosine, e] : {first, second}) {
+        if (cosine >= kFacing && m_.mesh.collapse(e)) return true;
     }
     return false;
 }

@@ -184,11 +184,7 @@ bool Mender::invisible(std::int32_t face) const {
 
 int Mender::invisible_around(std::int32_t h) const {
     int count = 0;
-    std::int32_t spoke = h;
-    do {
-        count += invisible(spoke / 3);
-        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
-    } while (spoke != h);
+    m_.mesh.for_each_spoke(h, [&](std::int32_t spoke) { count += invisible(spoke / 3); });
     return count;
 }
 
@@ -197,12 +193,10 @@ int Mender::invisible_around(std::int32_t h) const {
 void Mender::nudge(std::int32_t h) {
     Vec3 sum;
     int count = 0;
-    std::int32_t spoke = h;
-    do {
+    m_.mesh.for_each_spoke(h, [&](std::int32_t spoke) {
         sum += m_.mesh.position[m_.mesh.to(spoke)];
         ++count;
-        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
-    } while (spoke != h);
+    });
     Vec3& p = m_.mesh.position[m_.mesh.from(h)];
     const Vec3 before = p, way = sum / count - p;
     const double most = kNudge * options_.face_tolerance / std::max(norm(way), 1e-300);

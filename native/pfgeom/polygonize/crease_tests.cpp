@@ -69,11 +69,7 @@ bool CreaseTests::faces_outside(Label label, const Vec3& a, const Vec3& b, const
 // A vertex within a face goes anywhere; one on a crease along it; one where creases meet stays.
 bool CreaseTests::keeps_creases(std::int32_t h) const {
     int creases = 0;
-    std::int32_t spoke = h;
-    do {
-        creases += m_.crease(spoke);
-        spoke = m_.mesh.twin(SurfaceMesh::previous(spoke));
-    } while (spoke != h);
+    m_.mesh.for_each_spoke(h, [&](std::int32_t spoke) { creases += m_.crease(spoke); });
     return creases == 0 || (creases == 2 && m_.crease(h));
 }
 

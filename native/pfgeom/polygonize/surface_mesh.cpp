@@ -32,11 +32,7 @@ bool SurfaceMesh::joined(std::int32_t h, std::int32_t vertex) const {
 
 int SurfaceMesh::valence(std::int32_t h) const {
     int n = 0;
-    std::int32_t spoke = h;
-    do {
-        ++n;
-        spoke = twin(previous(spoke));
-    } while (spoke != h);
+    for_each_spoke(h, [&](std::int32_t) { ++n; });
     return n;
 }
 

@@ -62,14 +62,13 @@ std::int32_t Unfolder::best_beside(std::int32_t h) {
     std::int32_t best = -1;
     for (const std::int32_t edge : {h, SurfaceMesh::next(h), SurfaceMesh::previous(h), SurfaceMesh::next(g),
                                     SurfaceMesh::previous(g)}) {
+        if (squared_norm(at(mesh_.from(edge)) - at(mesh_.to(edge))) > square_ ||
+            mesh_.valence(edge) + mesh_.valence(mesh_.twin(edge)) > kMostNeighbours)
+            continue;
+        const std::vector<std::int32_t> faces = faces_around(edge);
+        const double before = bend(faces);
         for (const std::int32_t e : {edge, mesh_.twin(edge)}) {
-            const std::int32_t from = mesh_.from(e), to = mesh_.to(e);
-            if (squared_norm(at(from) - at(to)) > square_ ||
-                mesh_.valence(e) + mesh_.valence(mesh_.twin(e)) > kMostNeighbours)
-                continue;
-            const std::vector<std::int32_t> faces = faces_around(e);
-            const double before = bend(faces);
-            moved_ = from, to_ = to;
+            moved_ = mesh_.from(e), to_ = mesh_.to(e);
             const double less = before - bend(faces);
             moved_ = to_ = -1;
             if (less > most) most = less, best = e;
